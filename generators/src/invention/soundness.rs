@@ -131,9 +131,13 @@ pub(crate) fn is_opposed(merged: &Merged) -> bool {
         || across(Tag::Removed, Tag::Road)
 }
 
-/// Returns a score for the hard choices that merged types offer. A type counts twice if a danger that acts by itself is
-/// also needed, or if two mechanics use up the same supply, and once if its uses are opposed otherwise. The score is
-/// relative to the number of mechanics.
+/// The tension beyond which more makes no difference.
+const ENOUGH: usize = 12;
+
+/// Returns a score for the hard choices that merged types offer, up to [`ENOUGH`]. A type counts twice if a danger that
+/// acts by itself is also needed, or if two mechanics use up the same supply. It counts once if its uses are opposed
+/// otherwise, or if the player can remove a danger that acts by itself. The score is relative to the number of
+/// mechanics.
 pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
     let wants = [Tag::Tool, Tag::Road, Tag::Goal];
     let is_wanted = |port: &Port| wants.iter().any(|want| port.tags.contains(want));
@@ -145,12 +149,14 @@ pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usiz
         let uses_up = |port: &Port| is_wanted(port) && merged.loses(port) || port.tags.contains(&Tag::Spent);
         merged.ports.iter().filter(|(_, port)| uses_up(port)).count() > 1
     };
-    let score = |merged: &Merged| match (is_needed_danger(merged) || is_contested(merged), is_opposed(merged))
-    {
-        (true, _) => 2,
-        (false, opposed) => usize::from(opposed),
+    let score = |merged: &Merged| {
+        if is_needed_danger(merged) || is_contested(merged) {
+            2
+        } else {
+            usize::from(is_opposed(merged) || merged.has(Tag::Presses) && merged.has(Tag::Removed))
+        }
     };
-    12 * types.iter().map(score).sum::<usize>() / mechanics.len().max(1)
+    (12 * types.iter().map(score).sum::<usize>() / mechanics.len().max(1)).min(ENOUGH)
 }
 
 /// Returns `true` if the player can influence a mover other than by avoiding it. A mover that the player has to bring to

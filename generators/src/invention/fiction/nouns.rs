@@ -15,28 +15,19 @@ enum Form {
     Mover,
     Item,
     Crate,
-    /// A solid object or a piece of ground.
-    Place,
+    Solid,
+    Ground,
     Flash,
 }
 
 impl Form {
-    fn of(body: Body) -> Form {
-        match body {
-            Body::Mover => Form::Mover,
-            Body::Item => Form::Item,
-            Body::Crate => Form::Crate,
-            Body::Solid | Body::Ground => Form::Place,
-            Body::Flash => Form::Flash,
-        }
-    }
-
     fn of_heading(heading: &str) -> Option<Form> {
         Some(match heading.split(' ').next()? {
             "Movers" | "Movers:" | "Movers," => Form::Mover,
             "Items" | "Items:" | "Items," => Form::Item,
             "Crates" | "Crates:" | "Crates," => Form::Crate,
-            "Solid" | "Ground" | "Ground:" | "Ground," => Form::Place,
+            "Solid" => Form::Solid,
+            "Ground" | "Ground:" | "Ground," => Form::Ground,
             "Flashes" | "Flashes:" => Form::Flash,
             _ => return None,
         })
@@ -76,12 +67,27 @@ impl Noun {
         let [word, predicates, places] = parts[..] else {
             return Err("not `noun | predicates | places`".to_owned());
         };
-        Ok(Noun { word, form, predicates: predicates.parse()?, places: places.split_whitespace().collect() })
+        let mut predicates: Predicates = predicates.parse()?;
+        if form == Form::Item {
+            predicates = predicates.with(Predicates::portable());
+        }
+        Ok(Noun { word, form, predicates, places: places.split_whitespace().collect() })
     }
 
-    /// Returns `true` if the noun fits a type with the given body and required predicates.
+    /// Returns `true` if the noun fits a type with the given body and required predicates. Water and holes can be solid.
+    /// A thing that is carried one at a time has the body of ground, but it is called like an item.
     pub(crate) fn fits(&self, body: Body, needs: Predicates) -> bool {
-        self.form == Form::of(body) && self.predicates.includes(needs)
+        let is_carried = needs.includes(Predicates::portable());
+        let is_of_form = match body {
+            Body::Mover => self.form == Form::Mover,
+            Body::Item => self.form == Form::Item,
+            Body::Crate => self.form == Form::Crate,
+            Body::Solid => matches!(self.form, Form::Solid | Form::Ground),
+            Body::Ground if is_carried => self.form == Form::Item,
+            Body::Ground => self.form == Form::Ground,
+            Body::Flash => self.form == Form::Flash,
+        };
+        is_of_form && self.predicates.includes(needs)
     }
 
     /// Returns `true` if the noun's object occurs in a setting.

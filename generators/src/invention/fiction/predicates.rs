@@ -9,7 +9,7 @@ const WORDS: &[&str] = &[
     "quenches", "explodes", "thrown", "heals", "shields", "lures", "seed", "builds", "calls", "fragile",
     "heavy", "burns", "floats", "bars", "cuttable", "brittle", "living", "machine", "lever", "lamp", "shop",
     "target", "hole", "water", "plate", "soft", "bed", "bridge", "slippery", "sticky", "home", "den", "hot",
-    "exit", "thin", "spark",
+    "exit", "thin", "spark", "portable",
 ];
 
 /// A set of predicates.
@@ -17,6 +17,12 @@ const WORDS: &[&str] = &[
 pub(crate) struct Predicates(u64);
 
 impl Predicates {
+    /// Returns the predicate of all items.
+    pub(crate) fn portable() -> Predicates {
+        let at = WORDS.iter().position(|word| *word == "portable").expect("the word is listed");
+        Predicates(1 << at)
+    }
+
     /// Returns the union of two sets.
     pub(crate) fn with(self, other: Predicates) -> Predicates {
         Predicates(self.0 | other.0)
