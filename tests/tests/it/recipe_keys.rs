@@ -17,17 +17,19 @@ const PARTS: &str = "crates/snapshots/src/recipe/parts.rs";
 const PUZZLES: &str = "crates/snapshots/src/sections/puzzles/mod.rs";
 
 /// The recipe sections, each with its heading, and the file and name of the struct into which the section is parsed.
-const SECTIONS: [(&str, &str, &str); 12] = [
+const SECTIONS: [(&str, &str, &str); 14] = [
     ("The recipe as a whole", "crates/snapshots/src/recipe/mod.rs", "Recipe"),
     ("`[invented]`", PARTS, "InventedPart"),
     ("`[generated]`", PARTS, "GeneratedPart"),
     ("`[corpus]`", PARTS, "CorpusPart"),
     ("`[puzzles]`, `[locks]`, `[yards]`, `[strays]`", PUZZLES, "PuzzlePart"),
+    ("`[tiers]`", "crates/snapshots/src/sections/tiers/mod.rs", "Tiers"),
     ("`[marks]`", "crates/snapshots/src/sections/marks/mod.rs", "MarksPart"),
     ("`[memory]`", "crates/snapshots/src/sections/memory/part.rs", "MemoryPart"),
     ("`[taxonomy]`", PARTS, "Taxonomy"),
     ("`[board]`", "crates/forge/src/games/order.rs", "Board"),
     ("`[beacon]`", "crates/snapshots/src/recipe/beacon.rs", "BeaconPart"),
+    ("`[known]`", "crates/snapshots/src/recipe/known.rs", "Known"),
     ("`[criteria]`", "validators/src/thresholds.rs", "Criteria"),
     ("`[criteria.gates]`", "validators/src/gates/thresholds.rs", "Gates"),
 ];
@@ -103,6 +105,16 @@ fn the_page_lists_every_key() {
     let written = fs::read_to_string(workspace_root().join(PAGE)).unwrap_or_default();
     let differing = page.lines().zip(written.lines()).find(|(new, old)| new != old);
     assert!(page == written, "{PAGE} is old; {HEAD}\n{differing:?}");
+}
+
+#[test]
+fn every_table_of_a_recipe_has_a_section() {
+    let (_, file, name) = SECTIONS[0];
+    let plain = ["name", "description", "authors", "publisher", "seed", "commitment", "parent", "difficulty"];
+    let tables = keys(&read(file), name).into_iter().filter(|key| !plain.contains(&key.name.as_str()));
+    let is_missing =
+        |table: &Key| !SECTIONS.iter().any(|(heading, ..)| heading.contains(&format!("[{}]", table.name)));
+    assert_eq!(tables.filter(is_missing).collect::<Vec<Key>>(), []);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Advice on a known recipe key that is in the wrong table.
 
-use crate::recipe::parts::{CorpusPart, GeneratedPart};
+use crate::recipe::parts::{CorpusPart, GeneratedPart, InventedPart};
 use crate::sections::SECTIONS;
 use forge::games::Board;
 use generators::games::Kind;
@@ -10,7 +10,8 @@ use validators::Criteria;
 /// The top-level keys of a recipe, which come before its first table.
 const HEAD: [&str; 7] = ["name", "description", "authors", "publisher", "seed", "commitment", "parent"];
 /// The tables of a recipe, except those of [`SECTIONS`].
-const TABLES: [&str; 7] = ["beacon", "board", "corpus", "criteria", "difficulty", "generated", "taxonomy"];
+const TABLES: [&str; 9] =
+    ["beacon", "board", "corpus", "criteria", "difficulty", "generated", "invented", "known", "taxonomy"];
 
 /// Returns the name of the first table that contains a key, such as `corpus.criteria`.
 fn table_with(key: &str, tables: &toml::Table) -> Option<String> {
@@ -45,6 +46,7 @@ pub(crate) fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
     }
     let known = [
         ("generated", keys_of(&GeneratedPart { kinds: vec![Kind::KeyAndDoor], ..GeneratedPart::default() })),
+        ("invented", keys_of(&InventedPart::default())),
         ("corpus", keys_of(&CorpusPart::default())),
         ("criteria", keys_of(&Criteria::default())),
         ("board", keys_of(&Board::default())),

@@ -2,7 +2,7 @@
 //! sprites fly.
 //!
 //! A state's hash is a sum over its sprites. Each sprite adds the product of a number and its own keys
-//! (`hash.rs`). The number is linear in the sprite's position and the tick of its last move, so sprites in
+//! (`mod.rs`). The number is linear in the sprite's position and the tick of its last move, so sprites in
 //! flight need no update. All sprites that move in the same ticks form one linear hash class, by whose growth
 //! the sum grows after each of their moves.
 
