@@ -23,8 +23,11 @@ const LOOK_DEMAND: u8 = 1;
 /// The number of boards in a quick look.
 const LOOKS: usize = 24;
 /// The number of boards in a quick look after which a game without a winnable board is rejected. With good rules, at
-/// least one in five compositions is winnable.
-const HOPELESS: usize = 12;
+/// least one in five compositions is winnable. More than half of all rule sets are rejected here, so a quick look is
+/// cheap rather than certain.
+const HOPELESS: usize = 8;
+/// The maximum number of forward-model calls in a quick look's search for a win.
+const LOOK_SEARCH: u64 = 20_000;
 /// The total number of forward-model calls for a quick look's boards.
 const LOOK_CALLS: u64 = 1_500_000;
 /// The number of forward-model calls in the search for a board on which every mechanic matters.
@@ -178,6 +181,7 @@ impl InventedBoards {
             compositions: LOOKS,
             evaluations: LOOKS,
             hopeless: HOPELESS,
+            calls: LOOK_SEARCH,
             total: LOOK_CALLS,
             scrutiny: 1,
             ..BoardBudget::default()

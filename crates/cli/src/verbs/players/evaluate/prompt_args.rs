@@ -20,7 +20,7 @@ pub(crate) struct PromptArgs {
     /// board (see `arcade docs tracks`)
     #[arg(long, value_parser = PossibleValuesParser::new(Track::ALL.map(Track::name)).map(track_named))]
     pub(super) track: Option<Track>,
-    /// Whether prompts show earlier turns [default: zero-shot]
+    /// The earlier turns that prompts show [default: zero-shot]
     #[arg(long, value_parser = named::<Mode, 2>(Mode::ALL.map(Mode::name)))]
     mode: Option<Mode>,
     /// The layout of prompts
