@@ -150,7 +150,7 @@ fn rarity(name: &str) -> u64 {
         let mut tried: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
         for at in 0..SAMPLES {
             let sampler = &mut seed.child("sample", at).sampler();
-            let count = sampler.between(2, InventionConfig::default().mechanics);
+            let count = size(&InventionConfig::default(), sampler);
             let Some(mechanics) = choose(count, Lead::default(), |_| 1, sampler) else { continue };
             let is_sound = partition(&mechanics, sampler)
                 .is_some_and(|partition| Invention::of(mechanics.clone(), partition, sampler, seed).is_ok());
@@ -199,7 +199,7 @@ impl Invention {
 
     fn attempt(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
-        let count = sampler.between(2, config.mechanics.max(2));
+        let count = size(config, sampler);
         let chosen = choose(count, config.lead, |mechanic| census.weight(mechanic), sampler)?;
         Invention::of_choice(chosen, sampler, seed)
     }
@@ -226,11 +226,16 @@ impl Invention {
     /// Returns the unmet condition.
     pub fn sample(config: &InventionConfig, seed: Seed) -> Result<Invention, Unsound> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
-        let count = sampler.between(2, config.mechanics.max(2));
+        let count = size(config, sampler);
         let mechanics = choose(count, Lead::default(), |_| 1, sampler).ok_or(Unsound::Idle)?;
         let partition = partition(&mechanics, sampler).ok_or(Unsound::Unconnected)?;
         Invention::of(mechanics, partition, sampler, seed.child("fiction", 0))
     }
+}
+
+/// Draws a number of mechanics. Most draws have the minimum, because rules must be grasped quickly.
+fn size(config: &InventionConfig, sampler: &mut Sampler) -> usize {
+    if sampler.ratio(1, 4) { sampler.between(2, config.mechanics.max(2)) } else { 2 }
 }
 
 /// Draws a mechanic or ending that is not in `others`, by weight.

@@ -82,21 +82,6 @@ fn enough_prizes_are_held_before_the_rival_gets_the_last() {
 }
 
 #[test]
-fn bells_fall_silent_again() {
-    check(&["hunt", "in-one-go"], &[], "wwwwwww wAb.b.w wwwwwww", "rrr", Outcome::Won);
-    let late = format!("lr{}rr", "n".repeat(24));
-    check(&["hunt", "in-one-go"], &[], "wwwwwww wbA.b.w wwwwwww", &late, Outcome::Ongoing);
-}
-
-#[test]
-fn the_first_idol_starts_the_clock() {
-    check(&["hunt", "last-minute"], &[], "wwwwwww wAc.b.w wwwwwww", "rrr", Outcome::Won);
-    let idle = format!("r{}", "n".repeat(60));
-    let (outcome, played) = play(&["hunt", "last-minute"], &[], "wwwwwww wAc.b.w wwwwwww", &idle);
-    assert!(outcome == Outcome::Lost && (17..=30).contains(&played), "{outcome:?} {played}");
-}
-
-#[test]
 fn a_fire_is_fed_twice_before_it_goes_out() {
     let board = "wwwwwww wAcb..w w..c..w w.....w wwwwwww";
     check(&["hunt", "stoke"], &[], board, "rddru", Outcome::Won);
