@@ -184,6 +184,8 @@ impl<'a> Kit<'a> {
 fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (usize, usize) {
     let demand = usize::from(demand);
     let is_aim = analysis.aims().remove.contains(&stype);
+    let mut pushed = analysis.pushables().iter().flat_map(|pushable| &pushable.sinks);
+    let is_target = pushed.any(|sink| sink.partner == stype);
     let (mut low, mut high) = match idiom {
         Idiom::Barrier => (1, 2 + demand),
         Idiom::Crossing => (3, 14),
@@ -194,6 +196,7 @@ fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (
         Idiom::Thing if is_aim => (2 + demand, 4 + demand + demand / 2),
         Idiom::Thing => (1, 2 + demand / 2),
         Idiom::Heavy => (1 + demand.min(1), 2 + demand / 2),
+        Idiom::Spot if is_aim && !is_target => (2 + demand, 4 + demand + demand / 2),
         Idiom::Spot => (1, 2 + demand / 2),
         Idiom::Patrol => (1, 1 + demand.div_ceil(2)),
         Idiom::Hunter => (1, 1 + demand / 2),

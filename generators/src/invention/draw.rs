@@ -29,7 +29,7 @@ const ENDINGS: u64 = 12;
 pub struct InventionConfig {
     /// The maximum number of mechanics besides the ending. The minimum is 2.
     pub mechanics: usize,
-    /// The mechanic and the ending that draws should contain.
+    /// The parts that draws should contain.
     pub lead: Lead,
 }
 
@@ -39,12 +39,15 @@ impl Default for InventionConfig {
     }
 }
 
-/// A mechanic and an ending that draws should contain; see [`Census::lead`].
+/// Parts that draws should contain; see [`Census::lead`]. If no sound draw with all of them is found, the ending is
+/// given up first, and the danger next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lead {
-    /// The name of a mechanic. Draws contain it if a sound draw with the mechanic is found.
+    /// The name of a mechanic.
     pub mechanic: Option<&'static str>,
-    /// The name of an ending. Draws contain it if a sound draw with both the mechanic and the ending is found.
+    /// The name of a mechanic with a danger that acts by itself. It is left out if `mechanic` has such a danger, too.
+    pub danger: Option<&'static str>,
+    /// The name of an ending.
     pub ending: Option<&'static str>,
 }
 
@@ -88,18 +91,21 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the mechanic and the ending that lead the draws of a turn. All mechanics and all endings take turns,
-    /// starting with the least used, and the seed breaks ties. Independently drawn games thus differ if their turns
-    /// differ.
+    /// Returns the parts that lead the draws of a turn. All mechanics, dangers and endings take turns, starting with the
+    /// least used, and the seed breaks ties. Independently drawn games thus differ if their turns differ.
     pub fn lead(&self, seed: Seed, turn: usize) -> Lead {
-        let next = |kind: &str, are_endings: bool| {
-            let mut names: Vec<&'static str> =
-                Mechanic::endings(are_endings).map(|mechanic| mechanic.name.as_str()).collect();
-            seed.child("leads", are_endings.into()).sampler().shuffle(&mut names);
+        let next = |kind: &str, part: u64, is_part: fn(&Mechanic) -> bool| {
+            let parts = Mechanic::all().iter().filter(|mechanic| is_part(mechanic));
+            let mut names: Vec<&'static str> = parts.map(|mechanic| mechanic.name.as_str()).collect();
+            seed.child("leads", part).sampler().shuffle(&mut names);
             names.sort_by_key(|name| self.uses(kind, name));
-            names[turn % names.len()]
+            Some(names[turn % names.len()])
         };
-        Lead { mechanic: Some(next("mechanic", false)), ending: Some(next("ending", true)) }
+        Lead {
+            mechanic: next("mechanic", 0, |mechanic| mechanic.ending.is_none()),
+            danger: next("mechanic", 1, |mechanic| mechanic.ending.is_none() && mechanic.presses()),
+            ending: next("ending", 2, |mechanic| mechanic.ending.is_some()),
+        }
     }
 
     fn uses(&self, kind: &str, name: &str) -> u32 {
@@ -180,12 +186,14 @@ impl Invention {
     ///
     /// Returns `None` if none of several hundred draws is sound.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
-        let mechanic_only = Lead { ending: None, ..config.lead };
+        let any_ending = Lead { ending: None, ..config.lead };
+        let mechanic_only = Lead { danger: None, ..any_ending };
         // No draw is sound if the leads fit nothing, or if the census favours mechanics that do not fit together.
         let empty = Census::default();
         let tries = [
             (config.lead, census, "choice"),
-            (mechanic_only, census, "choice without ending"),
+            (any_ending, census, "choice without ending"),
+            (mechanic_only, census, "choice without danger"),
             (Lead::default(), &empty, "any choice"),
         ];
         tries.into_iter().find_map(|(lead, census, name)| {
@@ -235,7 +243,7 @@ impl Invention {
 
 /// Draws a number of mechanics. Most draws have the minimum, because rules must be grasped quickly.
 fn size(config: &InventionConfig, sampler: &mut Sampler) -> usize {
-    if sampler.ratio(1, 4) { sampler.between(2, config.mechanics.max(2)) } else { 2 }
+    if sampler.ratio(1, 4) { config.mechanics.max(2) } else { 2 }
 }
 
 /// Draws a mechanic or ending that is not in `others`, by weight.
@@ -264,7 +272,8 @@ fn choose(
     let mut chosen: Vec<&'static Mechanic> = named(lead.mechanic).into_iter().collect();
     if !chosen.iter().any(|mechanic| mechanic.presses()) {
         let pressing = |mechanic: &Mechanic| if mechanic.presses() { weight(mechanic) } else { 0 };
-        chosen.push(choose_one(false, &chosen, pressing, sampler)?);
+        let danger = named(lead.danger).map_or_else(|| choose_one(false, &chosen, pressing, sampler), Some);
+        chosen.push(danger?);
     }
     while chosen.len() < count {
         chosen.push(choose_one(false, &chosen, &weight, sampler)?);

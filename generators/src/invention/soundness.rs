@@ -1,7 +1,7 @@
 //! Static conditions on merged ports. Unsound partitions are rejected before rules are written.
 
 use super::mechanic::{Body, Mechanic, Port, Tag};
-use super::merge::Merged;
+use super::merge::{Merged, PortId};
 
 /// The maximum number of types that a player encounters.
 const MOST_TYPES: usize = 8;
@@ -65,7 +65,7 @@ pub(super) fn check(mechanics: &[&'static Mechanic], types: &[Merged]) -> Result
         (Unsound::Goal, types.iter().all(has_honest_goal)),
         (Unsound::NoTension, types.iter().any(is_opposed)),
         (Unsound::NoAgency, types.iter().all(is_influenced)),
-        (Unsound::NoPressure, types.iter().any(is_pressure)),
+        (Unsound::NoPressure, types.iter().any(|merged| is_pressure(merged, types))),
         (Unsound::TooMany, visible(mechanics, types) <= MOST_TYPES && are_few_crowded(types)),
     ];
     conditions.iter().find(|(_, holds)| !holds).map_or(Ok(()), |(why, _)| Err(*why))
@@ -167,9 +167,21 @@ fn is_influenced(merged: &Merged) -> bool {
 }
 
 /// Returns `true` if a type becomes a danger without any action of the player, and a different mechanic also uses it.
-/// A danger that only the player can bring about is simply avoided.
-fn is_pressure(merged: &Merged) -> bool {
-    merged.has(Tag::Presses) && merged.is_joint()
+/// A danger that only the player can bring about is simply avoided. A danger that takes things away without harming the
+/// player counts only if it takes what the ending needs.
+fn is_pressure(merged: &Merged, types: &[Merged]) -> bool {
+    let presses = |port: &Port| port.tags.contains(&Tag::Presses);
+    merged.is_joint()
+        && merged.ports.iter().filter(|(_, port)| presses(port)).any(|((mechanic, _), port)| {
+            let is_indirect = !port.tags.contains(&Tag::Harm)
+                && [Tag::Foe, Tag::Lost].iter().any(|tag| port.tags.contains(tag));
+            let takes = |((of, _), port): &(PortId, &Port)| {
+                let is_taken = port.tags.contains(&Tag::Lost)
+                    || port.tags.contains(&Tag::Spent) && !port.tags.contains(&Tag::Tool);
+                of == mechanic && is_taken
+            };
+            !is_indirect || types.iter().any(|taken| taken.has(Tag::Goal) && taken.ports.iter().any(takes))
+        })
 }
 
 /// Counts the types visible to players.

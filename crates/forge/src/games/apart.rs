@@ -25,7 +25,7 @@ pub(crate) struct FarInventions<'a> {
 
 impl<'a> FarInventions<'a> {
     /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics with the lowest counts in
-    /// the census. If all games in an order use the same `seed`, their draws are led by different mechanics and endings.
+    /// the census. If all games in an order use the same `seed`, their draws are led by different parts.
     pub(crate) fn new(
         census: &Census,
         known: &'a [GameForm],
@@ -38,12 +38,13 @@ impl<'a> FarInventions<'a> {
         FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
     }
 
-    /// Returns the child, or its parent if the child has lost the lead mechanic or ending. Otherwise, searches for
+    /// Returns the child, or its parent if the child has lost a part that leads. Otherwise, searches for
     /// different games would converge on the parts that pass most easily.
     fn led(&self, child: Invention, parent: &Invention) -> Invention {
         let has = |invention: &Invention, part| invention.mechanics().any(|name| Some(name) == part);
         let loses = |part| has(parent, part) && !has(&child, part);
-        if loses(self.lead.mechanic) || loses(self.lead.ending) { parent.clone() } else { child }
+        let parts = [self.lead.mechanic, self.lead.danger, self.lead.ending];
+        if parts.into_iter().any(loses) { parent.clone() } else { child }
     }
 }
 

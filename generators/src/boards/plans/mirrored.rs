@@ -50,7 +50,8 @@ pub(super) fn wings(canvas: &mut Canvas, sampler: &mut Sampler) {
 /// Draws a room in the middle of the board, with gates on two opposite sides.
 pub(super) fn sanctum(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
-    let (from_x, from_y) = (between(sampler, 3, width / 4 + 1), between(sampler, 2, 3).min(height / 3 + 1));
+    let from_x = between(sampler, 3, width / 4 + 1).min((width - 3) / 2);
+    let from_y = between(sampler, 2, 3).min(height / 3 + 1);
     let (to_x, to_y) = (width + 1 - from_x, height + 1 - from_y);
     let line = [(from_x, from_y), (to_x, from_y), (to_x, to_y), (from_x, to_y), (from_x, from_y + 1)];
     let gaps = if sampler.ratio(1, 2) || to_x - from_x < 4 {

@@ -3,7 +3,7 @@
 use super::clauses::Clauses;
 use super::{REMOVING, lost_name, name, own_name};
 use crate::invention::genome::Invention;
-use crate::invention::mechanic::{Origin, OwnType, Port, Tag};
+use crate::invention::mechanic::{Body, Origin, OwnType, Port, Tag};
 use crate::invention::merge::{Merged, PortId};
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine, Word};
 
@@ -46,7 +46,8 @@ fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<
     let of_port = |((at, _), port): &(PortId, &'static Port)| {
         let is_gone = port.tags.contains(&Tag::Removed) || port.tags.contains(&Tag::Spent);
         let is_state = |own: &&OwnType| {
-            matches!(&own.origin, Origin::State { port: of, .. } if *of == port.name) && !is_gone
+            let is_lasting = own.body != Body::Flash && !is_gone;
+            matches!(&own.origin, Origin::State { port: of, .. } if *of == port.name) && is_lasting
         };
         let types = invention.mechanics[*at].types.iter().filter(is_state);
         types.map(|own| own_name(*at, &own.name)).collect::<Vec<_>>()
