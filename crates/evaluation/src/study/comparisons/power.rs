@@ -95,7 +95,7 @@ pub fn table(rows: &[PowerRow]) -> Table {
         "The smallest win rates that can be distinguished from 0.1 and from 0.5, with a power of 80%, by the \
          paired test over games at 5%. Assumed standard deviations: games {games}, levels {levels}, match of \
          player and game {matches} logit. A dash: no rate can be distinguished, as always with fewer than \
-         six games. Adding games is more informative than adding runs. With a correction for many \
+         six games. Adding games helps more than adding runs. With a correction for many \
          comparisons, the power is lower."
     );
     Table::of(
