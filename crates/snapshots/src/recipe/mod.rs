@@ -390,7 +390,7 @@ pub(crate) mod tests {
             &format!("{GOOD}[generated.board]\nrows = [9, 9]"),
             "write [board] instead of [generated.board]",
         );
-        check(&format!("games = 6\n{GOOD}"), "`games` belongs in [generated] or [corpus]");
+        check(&format!("games = 6\n{GOOD}"), "`games` belongs in [generated] or [invented] or [corpus]");
         check(&format!("authors = ['']\n{GOOD}"), "`authors` takes");
         check(&format!("publisher = ' '\n{GOOD}"), "`publisher` takes");
         check("name = ", "expected");
