@@ -39,13 +39,13 @@ impl Default for InventionConfig {
     }
 }
 
-/// Parts that draws should contain; see [`Census::lead`]. If no sound draw with all of them is found, the ending is
-/// given up first, and the danger next.
+/// Parts that draws should contain; see [`Census::lead`]. If no sound draw with all of them is found, the mechanic is
+/// given up first, and the ending next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lead {
     /// The name of a mechanic.
     pub mechanic: Option<&'static str>,
-    /// The name of a mechanic with a danger that acts by itself. It is left out if `mechanic` has such a danger, too.
+    /// The name of a mechanic with a danger that acts by itself.
     pub danger: Option<&'static str>,
     /// The name of an ending.
     pub ending: Option<&'static str>,
@@ -91,10 +91,11 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the parts that lead the draws of a turn. All mechanics, dangers and endings take turns, starting with the
-    /// least used, and the seed breaks ties. Independently drawn games thus differ if their turns differ.
-    pub fn lead(&self, seed: Seed, turn: usize) -> Lead {
-        let next = |kind: &str, part: u64, is_part: fn(&Mechanic) -> bool| {
+    /// Returns the parts that lead a draw: the mechanic and the ending of one turn, and the danger of another. All of
+    /// them take turns, starting with the least used, and the seed breaks ties. Independently drawn games thus differ if
+    /// their turns differ.
+    pub fn lead(&self, seed: Seed, turn: usize, danger_turn: usize) -> Lead {
+        let next = |(kind, part): (&str, u64), turn: usize, is_part: fn(&Mechanic) -> bool| {
             let parts = Mechanic::all().iter().filter(|mechanic| is_part(mechanic));
             let mut names: Vec<&'static str> = parts.map(|mechanic| mechanic.name.as_str()).collect();
             seed.child("leads", part).sampler().shuffle(&mut names);
@@ -102,9 +103,13 @@ impl Census {
             Some(names[turn % names.len()])
         };
         Lead {
-            mechanic: next("mechanic", 0, |mechanic| mechanic.ending.is_none()),
-            danger: next("mechanic", 1, |mechanic| mechanic.ending.is_none() && mechanic.presses()),
-            ending: next("ending", 2, |mechanic| mechanic.ending.is_some()),
+            mechanic: next(("mechanic", 0), turn, |mechanic| {
+                mechanic.ending.is_none() && !mechanic.presses()
+            }),
+            danger: next(("mechanic", 1), danger_turn, |mechanic| {
+                mechanic.ending.is_none() && mechanic.presses()
+            }),
+            ending: next(("ending", 2), turn, |mechanic| mechanic.ending.is_some()),
         }
     }
 
@@ -186,14 +191,14 @@ impl Invention {
     ///
     /// Returns `None` if none of several hundred draws is sound.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
-        let any_ending = Lead { ending: None, ..config.lead };
-        let mechanic_only = Lead { danger: None, ..any_ending };
+        let any_mechanic = Lead { mechanic: None, ..config.lead };
+        let danger_only = Lead { ending: None, ..any_mechanic };
         // No draw is sound if the leads fit nothing, or if the census favours mechanics that do not fit together.
         let empty = Census::default();
         let tries = [
             (config.lead, census, "choice"),
-            (any_ending, census, "choice without ending"),
-            (mechanic_only, census, "choice without danger"),
+            (any_mechanic, census, "choice without mechanic"),
+            (danger_only, census, "choice without ending"),
             (Lead::default(), &empty, "any choice"),
         ];
         tries.into_iter().find_map(|(lead, census, name)| {
@@ -259,7 +264,7 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending by weight. The lead's mechanic comes first. At least one mechanic is a danger
+/// Draws different mechanics and an ending by weight. The lead's mechanics come first. At least one mechanic is a danger
 /// that acts by itself.
 fn choose(
     count: usize,

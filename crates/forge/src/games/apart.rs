@@ -10,8 +10,11 @@ const FAR: f64 = 0.6;
 /// The maximum number of draws to compare.
 const DRAWS: u64 = 12;
 
-/// The number of attempts per game after which a different mechanic takes the lead in the draws.
+/// The number of attempts per game after which a different mechanic and ending take the lead in the draws.
 const PATIENCE: u32 = 6;
+/// The number of attempts per game after which a different danger takes the lead. Dangers that pass easily would be in
+/// most games if each game could soon change to them.
+const DANGER_PATIENCE: u32 = 60;
 /// The number of turns by which the lead then advances. The stride exceeds the number of games in a month.
 const STRIDE: usize = 31;
 
@@ -32,8 +35,8 @@ impl<'a> FarInventions<'a> {
         (number, attempt): (u32, u32),
         seed: Seed,
     ) -> FarInventions<'a> {
-        let turn = number as usize + (attempt / PATIENCE) as usize * STRIDE;
-        let lead = census.lead(seed, turn);
+        let turn = |patience: u32| number as usize + (attempt / patience) as usize * STRIDE;
+        let lead = census.lead(seed, turn(PATIENCE), turn(DANGER_PATIENCE));
         let config = InventionConfig { lead, ..InventionConfig::default() };
         FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
     }
@@ -90,12 +93,13 @@ mod tests {
         let lead = |number, attempt| {
             let far = FarInventions::new(&Census::default(), &[], (number, attempt), seed);
             let drawn = far.create(seed.child("rules", number.into())).unwrap();
-            let lead = Census::default().lead(seed, number as usize + (attempt / PATIENCE) as usize * STRIDE);
-            (lead.mechanic, drawn.mechanics().any(|name| Some(name) == lead.mechanic))
+            let turn = number as usize + (attempt / PATIENCE) as usize * STRIDE;
+            let lead = Census::default().lead(seed, turn, number as usize);
+            (lead.mechanic, drawn.mechanics().any(|name| Some(name) == lead.danger))
         };
         let leads: BTreeSet<Option<&str>> = (0..12).map(|number| lead(number, 0).0).collect();
         assert_eq!(leads.len(), 12);
-        assert!((0..12).filter(|&number| lead(number, 0).1).count() > 8, "most leads fit something");
+        assert!((0..12).filter(|&number| lead(number, 0).1).count() > 8, "most dangers fit something");
         assert_ne!(lead(0, 0).0, lead(0, PATIENCE).0);
     }
 
