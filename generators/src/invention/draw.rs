@@ -91,10 +91,10 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the parts that lead a draw: the mechanic and the ending of one turn, and the danger of another. All of
+    /// Returns the parts that lead a draw: the danger and the ending of one turn, and the mechanic of another. All of
     /// them take turns, starting with the least used, and the seed breaks ties. Independently drawn games thus differ if
     /// their turns differ.
-    pub fn lead(&self, seed: Seed, turn: usize, danger_turn: usize) -> Lead {
+    pub fn lead(&self, seed: Seed, turn: usize, mechanic_turn: usize) -> Lead {
         let next = |(kind, part): (&str, u64), turn: usize, is_part: fn(&Mechanic) -> bool| {
             let parts = Mechanic::all().iter().filter(|mechanic| is_part(mechanic));
             let mut names: Vec<&'static str> = parts.map(|mechanic| mechanic.name.as_str()).collect();
@@ -103,12 +103,10 @@ impl Census {
             Some(names[turn % names.len()])
         };
         Lead {
-            mechanic: next(("mechanic", 0), turn, |mechanic| {
+            mechanic: next(("mechanic", 0), mechanic_turn, |mechanic| {
                 mechanic.ending.is_none() && !mechanic.presses()
             }),
-            danger: next(("mechanic", 1), danger_turn, |mechanic| {
-                mechanic.ending.is_none() && mechanic.presses()
-            }),
+            danger: next(("mechanic", 1), turn, |mechanic| mechanic.ending.is_none() && mechanic.presses()),
             ending: next(("ending", 2), turn, |mechanic| mechanic.ending.is_some()),
         }
     }

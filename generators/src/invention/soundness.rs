@@ -64,7 +64,10 @@ pub(super) fn check(mechanics: &[&'static Mechanic], types: &[Merged]) -> Result
         (Unsound::Idle, !types.iter().any(is_idle)),
         (Unsound::Goal, types.iter().all(has_honest_goal)),
         (Unsound::NoTension, types.iter().any(is_opposed)),
-        (Unsound::NoAgency, types.iter().all(is_influenced)),
+        (
+            Unsound::NoAgency,
+            types.iter().all(|merged| is_influenced(merged) && !wins_alone(merged, mechanics.len())),
+        ),
         (Unsound::NoPressure, types.iter().any(|merged| is_pressure(merged, types))),
         (Unsound::TooMany, visible(mechanics, types) <= MOST_TYPES && are_few_crowded(types)),
     ];
@@ -164,6 +167,15 @@ pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usiz
 fn is_influenced(merged: &Merged) -> bool {
     let is_affected = [Tag::Removed, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag));
     merged.body != Body::Mover || merged.has(Tag::Led) || (is_affected && !merged.has(Tag::Brought))
+}
+
+/// Returns `true` if a danger that spreads by itself is also a place to which the ending wants things brought. It would
+/// reach them without the player.
+fn wins_alone(merged: &Merged, mechanics: usize) -> bool {
+    let is_place = |((mechanic, _), port): &(PortId, &Port)| {
+        mechanic + 1 == mechanics && port.tags.contains(&Tag::Tool) && !port.tags.contains(&Tag::Spent)
+    };
+    merged.has(Tag::Presses) && merged.body != Body::Mover && merged.ports.iter().any(is_place)
 }
 
 /// Returns `true` if a type becomes a danger without any action of the player, and a different mechanic also uses it.

@@ -101,7 +101,10 @@ fn what_is_not_sound_is_refused_by_its_reason() {
     check(&["lock", "hunt", "exit"], &[], Unsound::Unconnected);
     check(&["feed", "hunt", "gather"], &[("feed.food", "hunt.hunter")], Unsound::Body);
     check(&["armour", "disguise", "exit"], &[], Unsound::Avatar);
-    check(&["mow", "use-up"], &[("mow.blade", "use-up.burden")], Unsound::Goal);
+    let merges = [("boomerang.ammo", "use-up.burden"), ("boomerang.mark", "lock.gate")];
+    check(&["boomerang", "lock", "use-up"], &merges, Unsound::Goal);
+    let merges = [("flood.water", "bring-home.home"), ("hunt.hunter", "bring-home.friend")];
+    check(&["flood", "hunt", "bring-home"], &merges, Unsound::NoAgency);
     check(&["lock", "gather"], &[("lock.key", "gather.prize")], Unsound::NoPressure);
 }
 

@@ -8,7 +8,7 @@ use crate::Variation;
 use base::{Sampler, Seed};
 
 /// The number of attempts at a change before the parent is returned unchanged.
-const ATTEMPTS: usize = 24;
+const ATTEMPTS: usize = 64;
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

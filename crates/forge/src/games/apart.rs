@@ -10,11 +10,11 @@ const FAR: f64 = 0.6;
 /// The maximum number of draws to compare.
 const DRAWS: u64 = 12;
 
-/// The number of attempts per game after which a different mechanic and ending take the lead in the draws.
+/// The number of attempts per game after which a different mechanic takes the lead in the draws.
 const PATIENCE: u32 = 6;
-/// The number of attempts per game after which a different danger takes the lead. Dangers that pass easily would be in
-/// most games if each game could soon change to them.
-const DANGER_PATIENCE: u32 = 60;
+/// The number of attempts per game after which a different danger and a different ending take the lead. Those that pass
+/// easily would be in most games if each game could soon change to them.
+const LONG_PATIENCE: u32 = 60;
 /// The number of turns by which the lead then advances. The stride exceeds the number of games in a month.
 const STRIDE: usize = 31;
 
@@ -36,7 +36,7 @@ impl<'a> FarInventions<'a> {
         seed: Seed,
     ) -> FarInventions<'a> {
         let turn = |patience: u32| number as usize + (attempt / patience) as usize * STRIDE;
-        let lead = census.lead(seed, turn(PATIENCE), turn(DANGER_PATIENCE));
+        let lead = census.lead(seed, turn(LONG_PATIENCE), turn(PATIENCE));
         let config = InventionConfig { lead, ..InventionConfig::default() };
         FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
     }
@@ -94,7 +94,7 @@ mod tests {
             let far = FarInventions::new(&Census::default(), &[], (number, attempt), seed);
             let drawn = far.create(seed.child("rules", number.into())).unwrap();
             let turn = number as usize + (attempt / PATIENCE) as usize * STRIDE;
-            let lead = Census::default().lead(seed, turn, number as usize);
+            let lead = Census::default().lead(seed, number as usize, turn);
             (lead.mechanic, drawn.mechanics().any(|name| Some(name) == lead.danger))
         };
         let leads: BTreeSet<Option<&str>> = (0..12).map(|number| lead(number, 0).0).collect();
