@@ -12,8 +12,8 @@ const DRAWS: u64 = 12;
 
 /// The number of attempts per game after which a different mechanic takes the lead in the draws.
 const PATIENCE: u32 = 6;
-/// The number of attempts per game after which a different danger and a different ending take the lead. Those that pass
-/// easily would be in most games if each game could soon change to them.
+/// The number of attempts per game after which a different danger and a different ending take the lead. If games changed
+/// sooner, the dangers and endings that pass easily would be in most games.
 const LONG_PATIENCE: u32 = 60;
 /// The number of turns by which the lead then advances. The stride exceeds the number of games in a month.
 const STRIDE: usize = 31;
