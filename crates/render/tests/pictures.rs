@@ -229,6 +229,20 @@ fn captions_tell_what_is_left() {
 }
 
 #[test]
+fn captions_tell_timed_changes_and_join_states() {
+    let source = GAME.replace("        newt > ", "        redNewt > Immovable\n        newt > ")
+        + "        MultiSpriteCounter stype1=newt stype2=redNewt limit=0 win=True\n";
+    let timed = "InteractionSet\n        marten TIME > transformToAll stype=newt stypeTo=redNewt timer=9 nextExecution=0\n";
+    let game = Game::from_source(&source.replace("InteractionSet\n", timed)).unwrap();
+    let analysis = Analysis::of(&game);
+    let looks = Looks::of(&analysis);
+    let state = game.start(&game.level(LEVEL).unwrap(), Seed::from_text("timed"));
+    let text = render::text(&looks, &Symbols::of(&analysis, &looks), &state);
+    let lines: Vec<&str> = text.lines().filter(|line| line.contains("newt ")).take(2).collect();
+    assert_eq!(lines, ["to win: hatch 1 to go or newt 1 to go", "soon: newt changes in 10"]);
+}
+
+#[test]
 fn captions_do_not_call_a_loss_a_win() {
     let to_win = |source: &str| {
         let game = Game::from_source(source).unwrap();

@@ -6,9 +6,10 @@ use crate::game::Game;
 use crate::limits::MAX_SEEN;
 use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::SpriteClass;
-use crate::rules::{Outcome, SpriteType};
+use crate::rules::effects::EffectSummary;
+use crate::rules::{Outcome, SpriteType, Timed};
 use crate::state::State;
-use crate::world::{Sprite, flag};
+use crate::world::{Sprite, Timer, flag};
 
 /// An observation: the part of a state that is visible to players.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,11 +94,13 @@ pub struct SpriteRecord {
 pub enum Event {
     /// The sprite creates another sprite.
     Makes,
+    /// The sprite turns into a sprite of another type.
+    Turns,
     /// The sprite vanishes.
     Ends,
 }
 
-/// A sprite's countdown.
+/// A sprite's countdown, or the countdown to a timed effect on a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Countdown {
     /// The sprite's type.
@@ -250,7 +253,8 @@ impl Game {
     }
 
     /// Returns the countdowns of sprites that create other sprites or vanish by themselves, by type and then
-    /// in order of creation. Cost: O(sprites with countdowns).
+    /// in order of creation. The countdowns to timed effects on types with sprites follow, in order of execution.
+    /// Cost: O(sprites with countdowns + timers).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
@@ -284,7 +288,39 @@ impl Game {
             !self.is_hidden(*stype) && (is_a(*stype, C::SpawnPoint) || ends())
         };
         let counting = self.sprite_types().filter(counts);
-        counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown)).collect()
+        let own = counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown));
+        own.chain(self.timed_countdowns(state)).collect()
+    }
+
+    /// Returns `true` if [`Game::countdowns`] can contain countdowns to timed effects.
+    pub fn has_timed_countdowns(&self) -> bool {
+        self.0.timed.iter().any(|timed| self.timed_event(timed).is_some())
+    }
+
+    fn timed_countdowns<'a>(&'a self, state: &'a State) -> impl Iterator<Item = Countdown> + use<'a> {
+        let countdown = |timer: &Timer| {
+            let (stype, event) = self.timed_event(&self.0.timed[usize::from(timer.timed)])?;
+            let ticks = timer.due.saturating_sub(state.world.tick()).max(1);
+            (state.alive(stype) > 0).then_some(Countdown { stype, event, ticks: Some(ticks), left: None })
+        };
+        state.world.timers().iter().rev().filter_map(countdown)
+    }
+
+    /// Returns the event that a timed effect causes, and the type that it concerns. Effects in every tick or every
+    /// second tick cause no event.
+    fn timed_event(&self, timed: &Timed) -> Option<(SpriteType, Event)> {
+        if timed.repeating && timed.timer <= 2 {
+            return None;
+        }
+        let effects = &self.0.effects[usize::from(timed.effect)].summary.effects;
+        let event = effects.iter().find_map(|effect| match effect {
+            EffectSummary::BecomeAll(of, _) => Some((*of, Event::Turns)),
+            EffectSummary::KillAll(of) => Some((*of, Event::Ends)),
+            EffectSummary::Become(_) => Some((timed.target?, Event::Turns)),
+            EffectSummary::Make(_) => Some((timed.target?, Event::Makes)),
+            _ => None,
+        });
+        event.filter(|(stype, _)| !self.is_hidden(*stype))
     }
 
     /// Returns the colour (red, green and blue) that the SpriteSet sets for a type or one of its parents, or

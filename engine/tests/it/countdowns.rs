@@ -52,3 +52,33 @@ fn spreaders_foretell_both() {
     assert_eq!(seen, makes.chain(ends).collect::<Vec<_>>());
     assert_eq!((count(&state, "dough"), count(&state, "loaf")), (0, 4));
 }
+
+/// Timed effects count down on the types that they change, also when a touch schedules them.
+#[test]
+fn timed_effects_are_foretold() {
+    let game = "BasicGame\n    SpriteSet\n        egg > Immovable\n        chick > Immovable\n        vent > Immovable\n        \
+        smoke > Immovable\n        bell > Immovable\n        lamp > Immovable\n        cook > MovingAvatar\n    LevelMapping\n        \
+        e > egg\n        v > vent\n        b > bell\n        l > lamp\n        A > cook\n    InteractionSet\n        \
+        cook TIME > transformToAll stype=egg stypeTo=chick timer=7 nextExecution=0\n        \
+        vent TIME > spawn stype=smoke timer=5 repeating=True nextExecution=0\n        \
+        bell cook > addTimer timer=4 ftype=killAll stype=lamp\n        bell cook > killSprite\n    TerminationSet\n        \
+        Timeout limit=90\n";
+    let game = Game::from_source(game).unwrap();
+    let mut state = game.start(&game.level("Ab e v l").unwrap(), Seed::from_text("clock"));
+    let count = |state: &engine::State, name: &str| state.alive(game.sprite_type(name).unwrap());
+    let mut events = Vec::new();
+    for tick in 0..14 {
+        let before = ["egg", "smoke", "lamp"].map(|name| count(&state, name));
+        let foretold = game.countdowns(&state);
+        game.step(&mut state, if tick == 0 { Action::Right } else { Action::Nil });
+        let now = ["egg", "vent", "lamp"].map(|name| {
+            let stype = game.sprite_type(name).unwrap();
+            foretold.iter().any(|known| known.stype == stype && known.ticks == Some(1))
+        });
+        let after = ["egg", "smoke", "lamp"].map(|name| count(&state, name));
+        assert_eq!(now, [0, 1, 2].map(|at| before[at] != after[at]), "tick {tick}: {foretold:?}");
+        events.extend(foretold.iter().filter(|known| known.ticks == Some(1)).map(|known| known.event));
+    }
+    assert_eq!(events.len(), 4, "{events:?}");
+    assert!(events.contains(&Event::Turns) && events.contains(&Event::Ends));
+}

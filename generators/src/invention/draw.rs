@@ -244,9 +244,9 @@ impl Invention {
     }
 }
 
-/// Draws a number of mechanics. Most draws have the minimum, because rules must be grasped quickly.
+/// Draws a number of mechanics. Half of the draws have the minimum, because rules must be grasped quickly.
 fn size(config: &InventionConfig, sampler: &mut Sampler) -> usize {
-    if sampler.ratio(1, 4) { config.mechanics.max(2) } else { 2 }
+    if sampler.ratio(1, 2) { config.mechanics.max(2) } else { 2 }
 }
 
 /// Draws a mechanic or ending that is not in `others`, by weight.

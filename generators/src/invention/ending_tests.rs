@@ -150,7 +150,7 @@ fn a_beast_comes_out_of_a_den_that_is_left() {
 #[test]
 fn a_beast_eats_the_nearest_food() {
     let merges = [("breed.food", "gather.prize")];
-    check_idle(&["breed", "gather"], &merges, "wwwwwww wA.a.bw wwwwwww", Outcome::Lost, (4, 5));
+    check_idle(&["breed", "gather"], &merges, "wwwwwww wA.a.bw wwwwwww", Outcome::Lost, (4, 7));
 }
 
 #[test]
@@ -173,4 +173,61 @@ fn the_thirsty_die_far_from_the_water() {
     check_idle(&["thirst", "exit"], &[], "wwwwwww wA.a.bw wwwwwww", Outcome::Lost, (13, 23));
     let drinks = format!("rr{}", "n".repeat(40));
     check(&["thirst", "exit"], &[], "wwwwwww wA.a.bw wwwwwww", &drinks, Outcome::Ongoing);
+}
+
+#[test]
+fn a_beast_hatches_from_an_egg_that_is_left() {
+    let names = ["hatch", "hunt", "exit"];
+    let merges = [("hatch.beast", "hunt.hunter")];
+    check_idle(&names, &merges, "wwwwwww wA.b.cw wwwwwww", Outcome::Lost, (17, 34));
+    let takes = format!("rr{}", "n".repeat(50));
+    check(&names, &merges, "wwwwwww wA.b.cw wwwwwww", &takes, Outcome::Ongoing);
+}
+
+#[test]
+fn a_roller_flattens_what_is_in_its_way() {
+    let merges = [("roll-over.bed", "clear-way.barrier")];
+    check_idle(&["roll-over", "clear-way"], &merges, "wwwwww wA...w wb.a.w wwwwww", Outcome::Won, (6, 9));
+    check_idle(&["roll-over", "exit"], &[], "wwwwwwww wb..A.cw wwwwwwww", Outcome::Lost, (9, 13));
+}
+
+#[test]
+fn a_worm_leaves_holes_in_the_way() {
+    let merges = [("undermine.soil", "tread-all.tile")];
+    check_idle(&["undermine", "tread-all"], &merges, "wwwwww wA...w w.b.cw wwwwww", Outcome::Lost, (2, 8));
+}
+
+#[test]
+fn a_hunter_gets_quicker_after_a_while() {
+    let board = format!("w{0}w wA{1}aw wb{1}.w w{0}w", "w".repeat(38), ".".repeat(36));
+    check_idle(&["quicken", "exit"], &[], &board, Outcome::Lost, (44, 64));
+}
+
+#[test]
+fn a_hunter_gets_quicker_after_a_theft() {
+    let names = ["provoke", "exit"];
+    let board = "wwwwwwwwwwwwww wbA..........aw wc..........ww wwwwwwwwwwwwww";
+    check_idle_after(&names, &[], board, "", Outcome::Lost, (25, 33));
+    check_idle_after(&names, &[], board, "l", Outcome::Lost, (10, 14));
+}
+
+#[test]
+fn a_robber_comes_once_it_is_armed() {
+    let board = "wwwwwww wA.b.aw wwwcwww wwwwwww";
+    check_idle(&["arm", "exit"], &[], board, Outcome::Lost, (6, 9));
+}
+
+#[test]
+fn a_rocket_clears_the_rock_in_its_way() {
+    let merges = [("seek-out.rock", "clear-way.barrier")];
+    check_idle(&["seek-out", "clear-way"], &merges, "wwwwwww wA.b.aw wwwwwww", Outcome::Won, (12, 21));
+    let board = "wwwwwww wA...aw wwwcwww wwwwwww";
+    check_idle(&["seek-out", "exit"], &[], board, Outcome::Lost, (14, 23));
+}
+
+#[test]
+fn a_dropped_bomb_clears_the_rock_beside_it() {
+    let names = ["pace", "drop-bombs", "clear-way"];
+    let merges = [("pace.walker", "drop-bombs.beast"), ("drop-bombs.rock", "clear-way.barrier")];
+    check_idle(&names, &merges, "wwwwww wA.a.w w....w w...bw wwwwww", Outcome::Won, (9, 60));
 }

@@ -69,6 +69,8 @@ pub(super) struct Costs {
     pub(super) traps: f64,
     /// The fraction of deviations after which the player is dead.
     pub(super) deaths: f64,
+    /// The tick of the last deviation that has a cost, as a fraction of the last tick at which a deviation was tried.
+    pub(super) last: f64,
     /// The number of forward-model calls.
     pub(super) calls: u64,
 }
@@ -83,21 +85,26 @@ pub(super) fn costs(
     limits: Limits,
 ) -> Costs {
     let mut costs = Costs::default();
-    let (mut trapped, mut dead) = (0, 0);
+    let (mut trapped, mut dead, mut last) = (0, 0, 0);
     for deviation in deviations {
-        match deviation.play(analysis.game(), level, win, seed) {
-            (_, Outcome::Won) => {}
+        let is_trapped = match deviation.play(analysis.game(), level, win, seed) {
+            (_, Outcome::Won) => false,
             (state, Outcome::Ongoing) => {
                 let found = shortest_win(analysis, &state, limits);
                 costs.calls += found.calls;
-                trapped += usize::from(found.win.is_none());
+                found.win.is_none()
             }
             _ => {
                 dead += 1;
-                trapped += 1;
+                true
             }
+        };
+        if is_trapped {
+            trapped += 1;
+            last = deviation.tick;
         }
     }
+    let latest = deviations.last().map_or(0, |deviation| deviation.tick).max(1);
     let share = |count: usize| count as f64 / deviations.len().max(1) as f64;
-    Costs { traps: share(trapped), deaths: share(dead), ..costs }
+    Costs { traps: share(trapped), deaths: share(dead), last: last as f64 / latest as f64, ..costs }
 }

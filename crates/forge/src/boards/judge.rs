@@ -32,6 +32,9 @@ pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
 /// The desired fraction of fatal deviations. Some deviations must be fatal because players do not notice the cost of a
 /// mere dead end.
 const DEATHS: f64 = 0.15;
+/// The fraction of a win at which a wrong choice should still have a cost. Otherwise, the player carries out the rest of
+/// the win in safety.
+const LAST: f64 = 0.7;
 /// The number of cells that a mover should sweep.
 const SWEEP: f64 = 5.0;
 /// The maximum fraction of the board that may be one empty rectangle.
@@ -39,7 +42,9 @@ const EMPTY: f64 = 0.25;
 /// The maximum fraction of a win that may pass without an event.
 const DEAD: f64 = 0.4;
 /// The weight of deviations in the quality.
-const TRAPS_WEIGHT: f64 = 0.28;
+const TRAPS_WEIGHT: f64 = 0.24;
+/// The weight of the last costly deviation in the quality.
+const LAST_WEIGHT: f64 = 0.10;
 /// The distance from the best quality beyond which a board is not examined closely.
 const MARGIN: f64 = 0.05;
 /// The number of alternative random futures in which a win is replayed.
@@ -262,7 +267,7 @@ impl Judge<'_> {
             ..known
         };
         measures.quality = quality(&measures);
-        if measures.quality + TRAPS_WEIGHT + MARGIN < best {
+        if measures.quality + TRAPS_WEIGHT + LAST_WEIGHT + MARGIN < best {
             measures.gates = 0.0;
             return measures;
         }
@@ -271,7 +276,7 @@ impl Judge<'_> {
         let deviations = Deviation::draw(game, level, &win.actions, self.seed, self.budget.deviations);
         let costs = costs(&deviations, self.analysis, level, &win.actions, self.seed, limits);
         *calls += costs.calls;
-        (measures.traps, measures.deaths) = (costs.traps, costs.deaths);
+        (measures.traps, measures.deaths, measures.last) = (costs.traps, costs.deaths, costs.last);
         measures.gates = self.gates(level, win);
         measures.quality = quality(&measures);
         measures
@@ -320,9 +325,10 @@ fn quality(measures: &BoardMeasures) -> f64 {
     let own = 0.20 * measures.necessity()
         + 0.10 * (measures.deaths / DEATHS).min(1.0)
         + TRAPS_WEIGHT * traps
-        + 0.08 * form
-        + 0.10 * measures.used
-        + 0.08 * lively
+        + LAST_WEIGHT * (measures.last / LAST).min(1.0)
+        + 0.07 * form
+        + 0.08 * measures.used
+        + 0.05 * lively
         + 0.06 * sweep
         + 0.06 * f64::from(u8::from(measures.is_new))
         + 0.04 * f64::from(u8::from(measures.is_shortest));
@@ -334,6 +340,7 @@ pub(super) fn is_complete(measures: &BoardMeasures) -> bool {
     measures.necessity() >= 1.0
         && (TRAPS.0..=TRAPS.1).contains(&measures.traps)
         && measures.deaths >= DEATHS
+        && measures.last >= LAST
         && measures.gates >= 1.0
         && measures.used >= 1.0
         && measures.dead <= DEAD

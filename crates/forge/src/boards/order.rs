@@ -94,6 +94,9 @@ pub struct BoardMeasures {
     pub traps: f64,
     /// The fraction of deviations after which the player is dead.
     pub deaths: f64,
+    /// The time of the last deviation that has a cost, as a fraction of the time of the last deviation tried. After it,
+    /// the rest of the win is safe.
+    pub last: f64,
     /// The fraction of placed types, not counting walls and floor, that take part in the win.
     pub used: f64,
     /// The fraction of the gates that the board meets on its own; 1.0 if no gates were requested.

@@ -36,7 +36,7 @@ impl Prospects {
             let regular = is_a(SpriteClass::SpawnPoint) && !is_left_to_chance(game, stype);
             facts.possible && !facts.hidden && (regular || lasts)
         };
-        let counts_down = game.sprite_types().any(counts);
+        let counts_down = game.has_timed_countdowns() || game.sprite_types().any(counts);
         Prospects { deadline, goals, needed, counts_down }
     }
 
@@ -97,6 +97,7 @@ impl Prospects {
             let left = countdown.left.map_or(String::new(), |left| format!(" ({left} left)"));
             match (countdown.ticks, countdown.event) {
                 (Some(ticks), Event::Makes) => format!("{name} acts in {ticks}{left}"),
+                (Some(ticks), Event::Turns) => format!("{name} changes in {ticks}"),
                 (Some(ticks), Event::Ends) => format!("{name} ends in {ticks}"),
                 (None, _) => format!("{name}{left}"),
             }
@@ -116,10 +117,21 @@ fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     has("prob") && !has("total")
 }
 
-/// Returns the names of the types that a termination counts, as written in the termination.
+/// Returns the names of the types that a termination counts, as written in the termination. A name such as
+/// `angryPirate`, which only tells the state of another counted type, is left out.
 fn names(game: &Game, goal: &Goal) -> String {
     let line = &game.description().terminations[goal.line];
     let given = line.params.iter().filter(|param| param.key.text.starts_with("stype"));
-    let given: Vec<String> = given.map(|param| param.value.text.replace(',', "+")).collect();
-    given.join("+")
+    let given: Vec<&str> = given.flat_map(|param| param.value.text.split(',')).collect();
+    let is_state = |name: &&str| given.iter().any(|other| is_state_of(name, other));
+    given.iter().filter(|name| !is_state(name)).copied().collect::<Vec<_>>().join("+")
+}
+
+/// Returns `true` if a name in camel case ends with another name, such as `angryPirate` with `pirate`.
+fn is_state_of(name: &str, other: &str) -> bool {
+    let mut letters = other.chars();
+    letters.next().is_some_and(|first| {
+        let word: String = first.to_uppercase().chain(letters).collect();
+        name != other && name.ends_with(&word)
+    })
 }
