@@ -9,6 +9,7 @@ mod order;
 mod phrases;
 mod rules;
 mod sprites;
+mod swap;
 mod template;
 mod words;
 

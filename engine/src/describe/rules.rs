@@ -2,6 +2,7 @@
 
 use super::fill::{by_the_clock, if_scored, when_they_meet};
 use super::phrases::Phrase;
+use super::swap::{self, Swap};
 use super::words::{Party, count, list, members, plural, sentence};
 use crate::analysis::{Analysis, Condition, EffectSummary, Encounter, Goal, Motion, Side};
 use crate::rules::effects::{Sentence, Target};
@@ -10,14 +11,27 @@ use crate::rules::{Counting, Rules, SpriteType, Timed};
 
 /// Returns one sentence per interaction line, in order of execution, covering all the line's partners. If an
 /// earlier line already contains one of its pairs, a line runs at several positions and gets one sentence for
-/// each.
+/// each. The three lines of a swap get one sentence.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
-    let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
-    let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
-    parts.filter_map(|(line, encounters)| meeting(analysis, line, &encounters)).collect()
+    let parts = swap::parts(analysis);
+    let (mut sentences, mut rest) = (Vec::new(), &parts[..]);
+    while let Some(((line, encounters), others)) = rest.split_first() {
+        let swap = rest.get(..SWAP).and_then(|three| Swap::of(analysis, three));
+        rest = if swap.is_some() { &rest[SWAP..] } else { others };
+        sentences.extend(meeting(analysis, *line, encounters, swap));
+    }
+    sentences
 }
 
-fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Option<String> {
+/// The number of lines of a swap.
+const SWAP: usize = 3;
+
+fn meeting(
+    analysis: &Analysis,
+    line: usize,
+    encounters: &[&Encounter],
+    swap: Option<Swap>,
+) -> Option<String> {
     let rules = &analysis.game().0;
     let info = rules.effects.iter().find(|info| info.line == line)?;
     let distinct = |parties: Vec<Option<SpriteType>>| {
@@ -39,9 +53,10 @@ fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Optio
     let first = distinct(encounters.iter().map(|encounter| Some(encounter.first)).collect());
     let second = distinct(told.map(|encounter| encounter.second).collect());
     let partner_stays = || encounters.iter().all(|met| met.second.is_some_and(|two| stays(analysis, two)));
-    let template = match all_idle {
-        true => Sentence::of_nothing(),
-        false => info.effect.sentence_beside(partner_stays),
+    let template = match swap {
+        Some(Swap { one, other, .. }) => Sentence::of_swap(one, other),
+        None if all_idle => Sentence::of_nothing(),
+        None => info.effect.sentence_beside(partner_stays),
     };
     let mut text = sentence(&negated(when_they_meet(analysis, &template, &first, &second)));
     // Some effects decide at run time whether they give points.

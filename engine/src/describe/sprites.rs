@@ -1,6 +1,7 @@
 //! Describes the sprites' behaviour, the player's keys and the level characters in plain English.
 
 use super::phrases::Phrase;
+use super::swap::Swap;
 use super::words::{Party, a, count, glide, list, pace, percent, plural};
 use crate::analysis::{Analysis, Avatar, EffectSummary, Encounter, Motion, Precondition, Role, Steering};
 use crate::numbers::geometry::Direction;
@@ -13,9 +14,10 @@ use crate::rules::traits::Traits;
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let (mut lines, mut is_all) = (Vec::new(), true);
+    let betweens = Swap::betweens(analysis);
     for stype in game.sprite_types() {
         let facts = analysis.facts(stype);
-        if !facts.possible || facts.motion == Motion::Steered {
+        if !facts.possible || facts.motion == Motion::Steered || betweens.contains(&stype) {
             continue;
         }
         let parts = sprite(analysis, stype);
@@ -27,7 +29,8 @@ pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     if !is_all {
         lines.push(Phrase::Idle.with(&[]));
     }
-    let walked_over: Vec<&str> = walked_over(analysis).map(|stype| game.name(stype)).collect();
+    let walked_over = walked_over(analysis).filter(|stype| !betweens.contains(stype));
+    let walked_over: Vec<&str> = walked_over.map(|stype| game.name(stype)).collect();
     if !walked_over.is_empty() {
         lines.push(Phrase::WalkOver.with(&[("names", &list(&walked_over, "and"))]));
     }

@@ -32,6 +32,10 @@ pub(crate) const UNTOLD: &str = "something happens to {every}";
 /// The template for effects that do nothing.
 const NOTHING: &str = "when {one} {one:touch|touches} {two}, nothing happens";
 
+/// The template for two types that turn into each other.
+const SWAP: &str =
+    "when {one} {one:touch|touches} {two}, every {type} turns into {to}, and every {other} into {back}";
+
 /// The text with which a probability starts.
 pub(crate) const CHANCE: &str = " with a chance of ";
 
@@ -74,6 +78,15 @@ impl Sentence {
     /// Returns the sentence for an effect that does nothing.
     pub(crate) fn of_nothing() -> Sentence {
         Sentence::of(NOTHING)
+    }
+
+    /// Returns the sentence for two types that turn into each other.
+    pub(crate) fn of_swap(one: SpriteType, other: SpriteType) -> Sentence {
+        Sentence::of(SWAP)
+            .with("type", Value::Name(one))
+            .with("to", Value::A(other))
+            .with("other", Value::Name(other))
+            .with("back", Value::A(one))
     }
 
     fn alone(self, alone: &'static str) -> Sentence {
@@ -170,7 +183,7 @@ pub(crate) fn templates() -> impl Iterator<Item = &'static str> {
         let sentence = effect.sentence();
         [sentence.meeting, sentence.alone]
     };
-    recorded().flat_map(both).filter(|text| *text != UNTOLD).chain([NOTHING])
+    recorded().flat_map(both).filter(|text| *text != UNTOLD).chain([NOTHING, SWAP])
 }
 
 impl Effect {
