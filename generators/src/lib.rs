@@ -24,4 +24,4 @@ pub use map_elites::{MapElites, MapElitesConfig};
 pub use search::{Evaluation, Search, Variation};
 
 /// The generators' version, incremented whenever any minted byte changes for an unchanged recipe.
-pub const GENERATION: u32 = 17;
+pub const GENERATION: u32 = 18;

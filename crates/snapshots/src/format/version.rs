@@ -39,12 +39,13 @@ pub const VERSIONS: &[Version] = &[
     superseded("0.14.0", 14, 3, "3d33844090f34abc1df37461ae2226a4ed14e99a"),
     superseded("0.15.0", 15, 3, "a7ccd546bdd5e807b4c9c252324dab106f5896fb"),
     superseded("0.16.0", 16, 3, "79f11a8c4dcda95feb068efa3fefb2c54fe6e486"),
+    superseded("0.17.0", 17, 3, "ba6f2644c1a02ac2f3eed5dba620418608133905"),
     CURRENT,
 ];
 
 /// The suite's current version.
 pub const CURRENT: Version = Version {
-    number: "0.17.0",
+    number: "0.18.0",
     generation: generators::GENERATION,
     semantics: engine::SEMANTICS,
     commit: None,
