@@ -187,6 +187,7 @@ fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (
     let mut pushed = analysis.pushables().iter().flat_map(|pushable| &pushable.sinks);
     let is_target = pushed.any(|sink| sink.partner == stype);
     let (mut low, mut high) = match idiom {
+        Idiom::Barrier if is_aim => (1 + demand.div_ceil(2).min(2), 2 + demand),
         Idiom::Barrier => (1, 2 + demand),
         Idiom::Crossing => (3, 14),
         Idiom::Road => (0, 4 + demand),
