@@ -1,5 +1,4 @@
-//! The games of a set so far, which limit later games. Later games must differ from earlier games, and the number of
-//! games per kernel and kind is limited.
+//! The games of a set so far, from which later games must differ.
 
 use super::cast::Cast;
 use crate::games::candidate::{Candidate, MadeGame};
@@ -10,8 +9,7 @@ use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
-/// The games of a set so far. No two games are near each other or share a title or a cast, no kernel or kind is
-/// overrepresented, and games of the same kernel have different maps.
+/// The games of a set so far. No two games are near each other, or share a title, a cast or an idea.
 #[derive(Default)]
 pub(crate) struct Company {
     forms: Vec<GameForm>,
@@ -25,7 +23,7 @@ pub(crate) struct Company {
     pub(crate) families: Families,
 }
 
-/// The remaining room in a set for games, by kernel and kind.
+/// The number of games in each kernel family.
 #[derive(Clone, Default)]
 pub(crate) struct Families(BTreeMap<String, usize>);
 

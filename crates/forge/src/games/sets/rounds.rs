@@ -34,8 +34,8 @@ pub(crate) struct Turn {
 struct Ledger(Vec<Fared>);
 
 impl Ledger {
-    /// Plans a round. Kernels with the fewest games and attempts come first, no kernel occurs twice while others are
-    /// left, and each game has a different scene if possible.
+    /// Plans a round. Kernels with the fewest games and attempts come first, and each game has a different scene if
+    /// possible.
     fn plan(&mut self, maker: &Maker<'_>, company: &Company, size: usize, first: u32) -> Vec<Turn> {
         let mut families = company.families.clone();
         let mut scenes = company.scenes.clone();
