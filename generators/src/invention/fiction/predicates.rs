@@ -9,7 +9,7 @@ const WORDS: &[&str] = &[
     "quenches", "explodes", "thrown", "heals", "shields", "lures", "seed", "builds", "calls", "fragile",
     "heavy", "burns", "floats", "bars", "cuttable", "brittle", "living", "machine", "lever", "lamp", "shop",
     "target", "hole", "water", "plate", "soft", "bed", "bridge", "slippery", "sticky", "home", "den", "hot",
-    "exit", "thin", "spark", "portable", "hatches", "trace",
+    "exit", "thin", "spark", "portable", "hatches", "trace", "reward",
 ];
 
 /// A set of predicates.
