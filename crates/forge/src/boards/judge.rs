@@ -45,7 +45,7 @@ const DEAD: f64 = 0.4;
 const TRAPS_WEIGHT: f64 = 0.24;
 /// The weight of the last costly deviation in the quality.
 const LAST_WEIGHT: f64 = 0.10;
-/// The margin by which a board's quality must fall short of the best before the board is not examined closely.
+/// The maximum amount by which a board's quality may fall short of the best for the board to be examined closely.
 const MARGIN: f64 = 0.05;
 /// The number of alternative random futures in which a win is replayed to test whether it still wins.
 const FUTURES: u64 = 6;

@@ -14,7 +14,7 @@ const LONGER: usize = 140;
 const SHORTER: usize = 115;
 /// The number of deviations from a win that are tried to find the threats that kill.
 const DEVIATIONS: usize = 20;
-/// The minimum number of deviations for which a threat must be the cause of death.
+/// The minimum number of deviations that a threat must make fatal in order to matter.
 const FATAL: usize = 2;
 
 /// Variants of a game with their analyses. Each variant omits one interaction, or all interactions of a mechanic.

@@ -94,8 +94,8 @@ pub struct BoardMeasures {
     pub traps: f64,
     /// The fraction of deviations after which the player is dead.
     pub deaths: f64,
-    /// The tick of the last deviation that has a cost, as a fraction of the tick of the last deviation tried. The rest
-    /// of the win is safe.
+    /// The tick of the last deviation that has a cost, as a fraction of the tick of the last deviation tried. After
+    /// that tick, the rest of the win is safe.
     pub last: f64,
     /// The fraction of placed types, not counting walls and floor, that are involved in the win.
     pub used: f64,

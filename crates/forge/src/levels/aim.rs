@@ -28,8 +28,8 @@ pub(super) struct Told {
 
 /// The number of episodes per ladder player in a quick evaluation.
 const PLAYS: u64 = 6;
-/// The margin that searches keep from the boundaries of a label's ease range. A second measurement may place a level
-/// within this margin beyond the boundary.
+/// The margin that searches keep from the boundaries of a label's ease range. A second measurement may move a level
+/// that lies within this margin across the boundary.
 const MARGIN: f64 = 0.08;
 /// The margin that an archive keeps from these boundaries. Levels closer to a boundary, or beyond it, reach at most 90%
 /// of the constraint.

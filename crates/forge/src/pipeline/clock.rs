@@ -54,7 +54,8 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Takes a version of the game through the later stages, after judging the levels already found again.
+    /// Takes a version of the game through the later stages, after a new judgement of the levels that have already been
+    /// found.
     fn pass_with(
         &self,
         candidate: Candidate,

@@ -1,4 +1,4 @@
-//! Levels that all judges judge again for a report.
+//! Levels judged again by all judges for a report.
 
 use base::Seed;
 use engine::{Analysis, Level};

@@ -84,7 +84,7 @@ base::named_enum! {
         Confirm = "confirm",
         /// The level combines the trick with a second mechanic.
         Combine = "combine",
-        /// The level gives the familiar trick a new turn.
+        /// The level puts a twist on the familiar trick.
         Twist = "twist",
         /// The level requires everything, with little slack.
         Exam = "exam",
