@@ -45,7 +45,7 @@ impl PartialEq for Episode {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Divergence {
-    /// The episode was recorded on a different game.
+    /// The episode was recorded with a different game.
     #[error("the episode was recorded on game {recorded}, not on {given}")]
     Game {
         /// The recorded digest of the game.
@@ -97,8 +97,8 @@ pub enum Divergence {
 }
 
 impl Episode {
-    /// Creates an episode that has not played its first tick yet, and returns it with the initial state. The
-    /// episode stores the steps of a [`SeedPath`].
+    /// Creates an episode before its first tick, and returns it with the initial state. If `seed` is a
+    /// [`SeedPath`], the episode stores its steps.
     pub fn begin(game: &Game, level: &Level, seed: impl Into<SeedPath>) -> (Episode, State) {
         let path = seed.into();
         let (seed, path) = (path.seed(), path.into_steps());

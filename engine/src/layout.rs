@@ -1,9 +1,9 @@
 //! The names of a game's files, which determine the levels that belong to the game. The engine itself reads
 //! no files; this module is for programs that do.
 //!
-//! A level is `lvl3.txt` next to `game.vgdl` or `game.txt`, or next to the only game in a folder.
-//! Alternatively, as in the public games, it is `zelda_lvl3.txt` next to `zelda.vgdl` or `zelda.txt`. Names
-//! are case-insensitive, and numbers may have gaps.
+//! A level file is named `lvl3.txt` and is next to `game.vgdl` or `game.txt`, or next to the only game in a
+//! folder. Alternatively, as in the public games, it is named `zelda_lvl3.txt` and is next to `zelda.vgdl` or
+//! `zelda.txt`. Names are case-insensitive, and numbers may have gaps.
 
 /// The names of the files with a game and its levels, all in the same folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -124,7 +124,7 @@ fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     }
 }
 
-/// Returns `true` if levels whose names do not name a game belong to the game `source`.
+/// Returns `true` if levels whose file names do not include a game's name belong to the game `source`.
 fn takes_plain(source: &str, names: &[&str]) -> bool {
     let other = |name: &&str| has_ending(name, "vgdl") || is_game(name) || owns_levels(name, names);
     is_game(source) || !names.iter().filter(|name| stem(name) != stem(source)).any(other)
@@ -135,8 +135,8 @@ const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
 /// The words that stand for a level in file names.
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
-/// Returns the game and the number in a name that resembles a level name, such as `level_3.txt` or `lvl3`.
-/// The game is empty if the name does not include one.
+/// Returns the game's name and the number in a file name that resembles a level's, such as `level_3.txt` or
+/// `lvl3`. The game's name is empty if the file name does not include one.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;

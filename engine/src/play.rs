@@ -50,8 +50,8 @@ impl Game {
         state
     }
 
-    /// Plays one tick. Does nothing once the episode is over. An action that the avatar does not have counts
-    /// as [`Action::Nil`].
+    /// Plays one tick. Does nothing once the episode is over. An action that is not available to the avatar
+    /// counts as [`Action::Nil`].
     ///
     /// Does not allocate once the state's buffers have grown.
     pub fn step(&self, state: &mut State, action: Action) -> Outcome {

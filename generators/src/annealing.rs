@@ -12,7 +12,7 @@ const STARTS: usize = 16;
 /// The parameters of an annealing search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnnealingConfig {
-    /// The total number of candidates to evaluate. The temperature schedule covers all evaluations.
+    /// The total number of candidates to evaluate. The temperature schedule spans all of them.
     pub evaluations: usize,
     /// The number of independent chains.
     pub chains: usize,
@@ -23,7 +23,7 @@ pub struct AnnealingConfig {
     pub coldest: f64,
     /// The number of starting candidates per chain. The chain continues from the best starting candidate.
     pub starts: usize,
-    /// The number of consecutive candidates without improvement over the chain's best after which the chain restarts.
+    /// The number of consecutive candidates that do not improve on the chain's best, after which the chain restarts.
     pub patience: usize,
 }
 
@@ -41,11 +41,11 @@ impl AnnealingConfig {
 ///
 /// Each chain stores a current candidate and proposes its neighbours. Infeasible candidates are compared only by
 /// feasibility, and feasible candidates only by objective. An infeasible candidate never replaces a feasible one. The
-/// temperature falls geometrically with the number of reported evaluations, and no clock is read. A batch's neighbours
-/// are processed in order, and each is compared with the candidate that is current at that point. A chain that has
-/// stagnated restarts.
+/// temperature falls geometrically with the number of reported evaluations, not with time. A batch's neighbours are
+/// processed in order, and each is compared with the candidate that is current by then. A chain that has stagnated
+/// restarts.
 ///
-/// Memory use is two candidates per chain, plus the best candidate. [`Search::ask`] returns an empty batch once it has
+/// Memory use: two candidates per chain, plus the best candidate. [`Search::ask`] returns an empty batch once it has
 /// proposed all candidates.
 #[derive(Debug)]
 pub struct Annealing<V: Variation> {
@@ -55,11 +55,11 @@ pub struct Annealing<V: Variation> {
     chains: Vec<Chain<V::Candidate>>,
     /// The index of the next chain in turn.
     turn: usize,
-    /// The chains of the proposed, not yet evaluated candidates, in order.
+    /// For each proposed candidate that is not yet evaluated, its chain, in order of proposal.
     pending: VecDeque<usize>,
     asked: usize,
     told: usize,
-    /// The number of seeds used for starting candidates.
+    /// The number of seeds already used for starting candidates.
     started: u64,
     best: Option<(V::Candidate, Evaluation)>,
 }
@@ -73,7 +73,7 @@ struct Chain<C> {
     starts: usize,
     /// The best evaluation since the chain started.
     peak: Option<Evaluation>,
-    /// The number of candidates since `peak` was set.
+    /// The number of candidates evaluated since `peak` was set.
     stale: usize,
 }
 
@@ -181,7 +181,7 @@ impl<C> Chain<C> {
         } else {
             self.stale += 1;
         }
-        // Drawn in every case, so that later draws do not depend on the outcome.
+        // Drawn even if unused, so that later draws do not depend on the outcome.
         let luck = self.sampler.unit();
         let goes = self.present.as_ref().is_none_or(|(_, present)| {
             compare(&evaluation, present) != Ordering::Less
@@ -208,7 +208,7 @@ fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     one.0.cmp(&two.0).then(one.1.total_cmp(&two.1))
 }
 
-/// Returns how much worse the second evaluation is than the first; `None` if only one candidate is feasible.
+/// Returns how much worse the first evaluation is than the second; `None` if only one of them is feasible.
 fn loss(one: &Evaluation, two: &Evaluation) -> Option<f64> {
     match (one.is_feasible(), two.is_feasible()) {
         (true, true) => Some(two.objective - one.objective),

@@ -1,4 +1,4 @@
-//! A grid of elites: the best candidate in each cell. A candidate's measures determine its cell.
+//! A grid of elites, which are the best candidates of their cells. A candidate's measures determine its cell.
 
 use crate::Evaluation;
 use std::collections::BTreeMap;
@@ -38,7 +38,7 @@ impl Axis {
     /// Returns the bin of a value. NaN belongs to the lowest bin.
     pub fn bin(&self, value: f64) -> usize {
         let share = (value - self.range.0) / (self.range.1 - self.range.0);
-        // The cast saturates at 0 and takes NaN to 0.
+        // The cast saturates at 0 and converts NaN to 0.
         ((share * self.bins as f64) as usize).min(self.len() - 1)
     }
 }
@@ -65,8 +65,8 @@ pub struct Archive<C> {
     /// The maximum number of infeasible candidates per cell.
     pocket_size: usize,
     elites: BTreeMap<usize, Evaluated<C>>,
-    /// The infeasible candidates by cell, from least to most infeasible. Among equally infeasible candidates, the
-    /// youngest comes first. Pockets are never empty.
+    /// The infeasible candidates by cell, from least to most infeasible. Among equally infeasible candidates, the most
+    /// recent comes first. Pockets are never empty.
     pockets: BTreeMap<usize, Vec<Evaluated<C>>>,
 }
 
@@ -78,9 +78,9 @@ impl<C> Archive<C> {
     }
 
     /// Adds a candidate if it is good enough. Cost: O(log cells + pocket). A feasible candidate becomes its cell's
-    /// elite if its objective is higher than the current elite's. An infeasible candidate is added to the pocket, and
-    /// evicts the worst candidate if the pocket is full. Among equally infeasible candidates, the oldest is evicted, so
-    /// that candidates of equal feasibility can still drift.
+    /// elite if its objective is higher than the current elite's. An infeasible candidate is added to the pocket, which
+    /// evicts its worst candidate if it is full. Among equally infeasible candidates, the oldest is evicted, so that
+    /// candidates of equal feasibility can still drift.
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
         let judged = Evaluated { candidate, evaluation };
@@ -114,7 +114,7 @@ impl<C> Archive<C> {
     }
 
     /// Moves a cell's elite to the pocket because a closer evaluation found it infeasible after all. The cell is then
-    /// free for a new elite. Has no effect if `feasibility` is at least 1, the value of a feasible candidate.
+    /// free for a new elite. Has no effect if `feasibility` is at least 1, which means feasible.
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         if feasibility < 1.0
             && let Some(mut judged) = self.elites.remove(&cell)

@@ -43,8 +43,8 @@ impl<'a, V: Variation> Breeding<'a, V> {
         })
     }
 
-    /// Breeds a new candidate from one or two parents. Two parents are crossed, and the child is then mutated half of
-    /// the time. A child of one parent is only mutated. A known child is mutated further. Returns `None` if all
+    /// Breeds a new candidate from one or two parents. Two parents are crossed, and their child is mutated half of the
+    /// time. A single parent is only mutated. A child that is already known is mutated further. Returns `None` if all
     /// attempts yield known candidates.
     pub(crate) fn breed(
         &mut self,

@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GenerateError {
-    /// The generator does not support the game, with any seed.
+    /// The generator cannot support the game, whatever the seed.
     #[error("no level can be made for this game: {0}")]
     Unsuitable(String),
     /// Generation failed with this seed, but might succeed with a different one.

@@ -12,6 +12,6 @@ pub trait Generator: Sync {
     /// Generates the output for a seed.
     ///
     /// # Errors
-    /// Returns an error if the seed or the configuration does not lead to a result.
+    /// Returns an error if nothing can be generated for the seed or the configuration.
     fn generate(&self, seed: Seed) -> Result<Self::Output, GenerateError>;
 }

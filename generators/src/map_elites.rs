@@ -1,13 +1,13 @@
-//! Illumination search: finds the best candidate for each cell by varying known candidates.
+//! Illumination search, which finds the best candidate for each cell by varying known candidates.
 
 use crate::breeding::Breeding;
 use crate::{Archive, Axis, Evaluated, Evaluation, Search, Variation};
 use base::{Digest, Sampler, Seed};
 
 /// The minimum size of the tournament among infeasible parents. The tournament grows with the number of pockets,
-/// because pockets retain many dead ends.
+/// because pockets retain many candidates that lead nowhere.
 const TOURNAMENT: usize = 3;
-/// The number of pockets per additional entrant in the tournament among infeasible parents.
+/// The number of pockets for each additional entrant in the tournament among infeasible parents.
 const SHARE: usize = 8;
 
 base::with_defaults! {
@@ -27,13 +27,13 @@ base::with_defaults! {
     }
 }
 
-/// Constrained MAP-Elites: fills an [`Archive`] as its result (Khalifa et al., "Talakat: Bullet Hell Generation
-/// through Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with
-/// Interactive Constrained MAP-Elites", 2019).
+/// Constrained MAP-Elites, whose result is an [`Archive`] (Khalifa et al., "Talakat: Bullet Hell Generation through
+/// Constrained Map-Elites", 2018; Alvarez et al., "Empowering Quality Diversity in Dungeon Design with Interactive
+/// Constrained MAP-Elites", 2019).
 ///
-/// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible.
-/// Infeasible parents are preferably taken from the pockets of empty cells next to filled cells, where the frontier
-/// can advance. No candidate is proposed twice.
+/// Parents and mates are elites, drawn uniformly from the filled cells. A fraction of the parents are infeasible. They
+/// preferably come from the pockets of empty cells next to filled cells, where the frontier can advance. No candidate
+/// is proposed twice.
 ///
 /// ```
 /// # use base as infinite_arcade_base;
@@ -135,12 +135,12 @@ impl<V: Variation> Search for MapElites<'_, V> {
     type Candidate = V::Candidate;
 
     /// Returns fewer than `count` candidates only if the variation yields no new candidates. A later call may return
-    /// more. Cost per candidate in addition to its variation: O(pockets × axes).
+    /// more. Cost per candidate, in addition to the cost of its variation: O(pockets × axes).
     fn ask(&mut self, count: usize) -> Vec<V::Candidate> {
         (0..count).filter_map(|_| self.propose()).collect()
     }
 
-    /// Also accepts candidates that the search did not propose, as a starting population.
+    /// Also accepts candidates that the search did not propose, so that the caller can provide a starting population.
     fn tell(&mut self, evaluated: Vec<(V::Candidate, Evaluation)>) {
         for (candidate, evaluation) in evaluated {
             self.breeding.note(&candidate);
@@ -155,8 +155,8 @@ fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated
     archive.elites().nth(at).expect("an index below the length").1
 }
 
-/// Draws an infeasible candidate from an archive with at least one. Prefers empty cells next to filled cells, and
-/// otherwise uses any pocket.
+/// Draws an infeasible candidate from an archive with at least one. Prefers the pockets of empty cells next to filled
+/// cells, and otherwise uses any pocket.
 fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated<C> {
     let is_filled = |cell: usize| archive.elite(cell).is_some();
     let at_frontier = |(cell, _): &(usize, &[Evaluated<C>])| {

@@ -23,13 +23,13 @@ pub trait Search {
 /// A candidate's evaluation, as numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
-    /// The degree to which the candidate meets the constraints, from 0.0 to 1.0: the mean of graded constraints. The
-    /// candidate is feasible only at 1.0.
+    /// The mean degree to which the candidate meets each constraint, from 0.0 to 1.0. The candidate is feasible only at
+    /// 1.0.
     pub feasibility: f64,
-    /// The candidate's quality, from 0.0 to 1.0. Compared only among feasible candidates.
+    /// The candidate's quality, from 0.0 to 1.0. Only feasible candidates are compared by quality.
     pub objective: f64,
-    /// The candidate's characteristics, in the order of the measures declared by the judges. The measures serve as the
-    /// axes of an archive.
+    /// The candidate's characteristics, in the order in which the judges declare the measures. The measures serve as
+    /// the axes of an archive.
     pub measures: Vec<f64>,
 }
 

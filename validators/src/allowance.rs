@@ -1,7 +1,7 @@
 //! A validation budget: a number of forward-model calls, divided among the criteria.
 //!
-//! Minting does not need such a budget, because recipes limit each criterion separately. A designer, by
-//! contrast, sets one number and expects an answer after about that much work, whatever the game.
+//! Minting does not need such a budget, because recipes limit each criterion separately. A designer, in contrast, sets
+//! a single number and expects an answer after about that much work, whatever the game.
 
 use crate::measures::LadderConfig;
 use crate::thresholds::CheckedCriteria;
@@ -9,17 +9,16 @@ use agents::PortfolioConfig;
 use base::Seed;
 use engine::{Action, Game, Level, Meeting, Watch};
 
-/// The maximum work per tick, in the engine's units, at which a call counts as just one call.
+/// The maximum work per tick, in the engine's units, at which a call counts as a single call.
 const USUAL_WORK: u64 = 4096;
 /// The number of ticks to play when estimating a level's work per tick.
 const SAMPLED_TICKS: u64 = 16;
 
-/// The numbers of forward-model calls to divide among the criteria, for each level and for the game as a
-/// whole.
+/// The number of forward-model calls to divide among the criteria, both for each level and for the game as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Allowance {
     calls: u64,
-    /// The number of calls that each call counts as: more than one if ticks are unusually expensive.
+    /// The number of calls as which a single call counts. It is greater than 1 if ticks are unusually expensive.
     weight: u64,
 }
 
@@ -61,18 +60,18 @@ impl Allowance {
     }
 }
 
-/// The effort that a panel makes.
+/// The effort that a panel spends on judging.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// All episodes and searches of the criteria. Used for reports.
+    /// All episodes and searches that the criteria specify. Used for reports.
     Full,
     /// Like [`Effort::Full`], except that `skill` stops its players as soon as the answer is practically certain. Used
     /// for minting, which judges many candidates.
     Sequential,
-    /// A number of forward-model calls, divided among the criteria, for each level and for the game as a
-    /// whole. All criteria together make up to about eight times as many calls, and at least the minimum for
-    /// an answer. Work beyond the limit is stopped, which leaves the answer unknown. An unusually expensive
-    /// tick counts as several calls.
+    /// A number of forward-model calls to divide among the criteria, both for each level and for the game as a whole.
+    /// All criteria together make up to about eight times as many calls, but at least as many as an answer requires.
+    /// Work beyond the limit is stopped, which leaves the answer unknown. An unusually expensive tick counts as several
+    /// calls.
     Calls(u64),
 }
 
@@ -158,7 +157,7 @@ mod tests {
     use super::*;
     use crate::{Criteria, Criterion, GameReport, Judging, Panel, Report};
 
-    /// A game in which a moth reaches the goal at some time, but rarely before the 1000th tick.
+    /// A game in which a moth eventually reaches the goal, but rarely before the 1000th tick.
     const GAME: &str = "BasicGame\n  SpriteSet\n    wall > Immovable\n    goal > Door\n    moth > RandomNPC cooldown=60\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n    m > moth\n  InteractionSet\n    avatar wall > stepBack\n    moth wall > stepBack\n    goal moth > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype=goal win=True\n    Timeout limit=1000 win=False\n";
     const LEVEL: &str = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                            w\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwm                           gw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
 

@@ -41,10 +41,10 @@ macro_rules! every_criterion {
 }
 pub(crate) use every_criterion;
 
-/// The assumptions that a level criterion makes.
+/// The assumptions that a level criterion makes about the level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// The criterion does not depend on play, or other criteria are skipped if it fails.
+    /// The criterion does not depend on play, or its failure makes the panel skip other criteria.
     Start,
     /// The criterion examines episodes that get beyond the first tick.
     Play,
@@ -63,7 +63,7 @@ pub(crate) enum About {
     Players,
     /// Winning play. Skips levels without a known win.
     Play,
-    /// The rules. Doubts about the rules may be due to an unwinnable level.
+    /// The rules. Doubts about the rules may only be due to an unwinnable level.
     Rules,
 }
 

@@ -7,7 +7,7 @@ use engine::{Game, Span};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// One observation by a validator.
+/// A single observation by a validator.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Evidence {
     /// The observation, as text.

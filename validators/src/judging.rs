@@ -100,7 +100,7 @@ impl<'a, S> Judging<'a, S> {
         Judging { stop_at_first: true, ..self }
     }
 
-    /// Passes each judgement to `hear`, and makes the judging end once `stopped` returns `true`.
+    /// Passes each judgement to `hear`, and ends the judging once `stopped` returns `true`.
     #[must_use]
     pub fn watched_by(
         self,

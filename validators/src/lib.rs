@@ -1,8 +1,8 @@
-//! Judgements on games and levels. Each release criterion is a separate validator.
+//! Validators that judge games and levels. Each release criterion is a separate validator.
 //!
-//! There are three verdicts. *Pass* can include a witness: an episode that replays to a win. *Fail* includes
-//! a reason and possibly a counter-example. *Unknown* includes the number of calls spent. A level is never
-//! called unsolvable merely because the budget ran out.
+//! There are three verdicts. *Pass* can include a witness: an episode that replays to a win. *Fail* includes a reason
+//! and possibly a counter-example. *Unknown* includes the number of calls spent. A level never counts as unsolvable
+//! merely because the budget ran out.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod allowance;

@@ -18,7 +18,7 @@ use agents::Stopped;
 use engine::{Analysis, Episode, Level};
 use rayon::prelude::*;
 
-/// The judges for a set of criteria. They are checked from cheapest to most expensive.
+/// The judges for a set of criteria. The criteria are checked from cheapest to most expensive.
 #[derive(Clone, Debug)]
 pub struct Panel {
     criteria: CheckedCriteria,
@@ -36,7 +36,7 @@ impl Panel {
         Panel { criteria, effort }
     }
 
-    /// Judges a level, a game with its levels, or a game as a whole whose levels have already been judged.
+    /// Judges a level, a game with its levels, or, if the levels have already been judged, the game as a whole.
     pub fn judge<S: Subject>(&self, judging: Judging<'_, S>) -> S::Findings {
         S::judged_by(self, judging)
     }
@@ -240,9 +240,8 @@ fn skipped(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
 
-/// Returns the reason why a verdict on the rules should not count, if any. The verdict may merely be a
-/// consequence of levels that are unwinnable or over in their first tick, and it is meaningless if all levels
-/// are.
+/// Returns the reason why a verdict on the rules should not count, if there is one. The verdict may merely be a
+/// consequence of levels that are unwinnable or over in their first tick. If all levels are, it is meaningless.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());
@@ -292,7 +291,7 @@ mod tests {
         if let Some(witness) = &report.witness {
             assert_eq!(witness.replay(&game, &level).unwrap().outcome(), Outcome::Won);
         }
-        // Any episode may become the witness, and the path of its seed is published.
+        // Any episode may become the witness, and the path of the witness's seed is published.
         for episode in report.episodes() {
             let path = SeedPath::new(Seed::from_text("panel"), episode.path);
             assert_eq!(path.seed(), episode.seed, "{path}");
@@ -331,7 +330,7 @@ mod tests {
             (&judgements, &heard),
             (&panel.judge(Judging::together(&game, &levels, from_ref(&report), seed)), &judgements)
         );
-        // An observer that has left receives nothing more.
+        // An observer that has cancelled the judging receives no more judgements.
         let count = std::sync::atomic::AtomicUsize::new(0);
         let mut heard = 0;
         let hear = &mut |_: &Judgement| {

@@ -5,7 +5,7 @@ use base::Seed;
 use engine::{Action, Episode, Game, Level, Meeting, Outcome, Watch};
 use rayon::prelude::*;
 
-/// A level with the episodes played by its validators, from most to least informative.
+/// A level with the episodes that its validators played, from most to least informative.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'a> {
     /// The recorded level.
@@ -26,13 +26,13 @@ pub(crate) struct Use {
 /// The interactions and types that occur in a recording.
 #[derive(Clone, Debug)]
 pub(crate) struct Usage {
-    /// For each interaction line, its first execution in each of some episodes, alternating between levels.
+    /// For each interaction line, its first execution in each of up to 24 episodes, alternating between levels.
     pub(crate) lines: Vec<Vec<Use>>,
     /// For each type, `true` if a sprite of the type was present, or the type was held as a resource.
     pub(crate) types: Vec<bool>,
     /// `true` if every level has at least one won episode.
     pub(crate) won: bool,
-    /// The number of replayed episodes and, in the next field, their total number of ticks.
+    /// The number of replayed episodes. The next field contains their total number of ticks.
     pub(crate) episodes: usize,
     pub(crate) ticks: u64,
 }
@@ -78,8 +78,8 @@ impl Usage {
         Usage::within(game, recording, TICKS)
     }
 
-    /// Replays the recording like [`Usage::of`], with about `most` ticks per level. The last episode to be
-    /// replayed is the one that exceeds the limit.
+    /// Replays the recording like [`Usage::of`], but with about `most` ticks per level. The episode that exceeds the
+    /// limit is the last one to be replayed.
     pub(crate) fn within(game: &Game, recording: &[Recorded<'_>], most: u64) -> Usage {
         let most = most.min(TICKS);
         let numbered: Vec<(usize, &Recorded<'_>)> = recording.iter().enumerate().collect();
@@ -135,9 +135,9 @@ impl Usage {
     }
 }
 
-/// Returns, for each interaction line, the level and episode of up to 24 recorded executions, each in a
-/// different episode. A rule's effect can be examined in these episodes. Costs a replay of the episodes, with
-/// at most 100,000 ticks per level.
+/// Returns, for each interaction line, the level and episode of up to 24 recorded executions, each in a different
+/// episode. These episodes serve to examine a rule's effect. Costs a replay of the episodes, with at most 100,000 ticks
+/// per level.
 pub fn executions(game: &Game, recording: &[Recorded<'_>]) -> Vec<Vec<[usize; 2]>> {
     let places = |uses: Vec<Use>| uses.iter().map(|at| [at.level, at.episode]).collect();
     Usage::of(game, recording).lines.into_iter().map(places).collect()
@@ -148,9 +148,9 @@ const MAX_WALKS: u64 = 400;
 /// The number of random actions per walk.
 const WALK_TICKS: usize = 40;
 
-/// Searches for executions of interactions that a recording lacks, by random walks from random moments in
-/// each level's episodes. Uses up to `most` ticks per level, plus one walk. Returns, for each level, new
-/// ordinary episodes with these executions.
+/// Searches for executions of interactions that a recording lacks, by random walks from random moments in each level's
+/// episodes. Uses up to `most` ticks per level, plus one walk. For each level, returns new, ordinary episodes that
+/// contain these executions.
 pub(crate) fn explore(
     game: &Game,
     recording: &[Recorded<'_>],
@@ -194,7 +194,7 @@ fn random_walk(
         return None;
     }
     let mut sampler = seed.sampler();
-    // The most informative episode comes first, and about every other walk starts from it.
+    // The most informative episode comes first. Half of the walks start from it, and the others from any episode.
     let among = if sampler.ratio(1, 2) { 1 } else { recorded.episodes.len() };
     let from = &recorded.episodes[sampler.below(among)];
     let start = sampler.below(from.actions.len().max(1));

@@ -10,7 +10,7 @@ use serde::Serialize;
 /// actions.
 pub(crate) const OVER: &str = "skipped: the game is over in its first tick";
 
-/// One validator's finding.
+/// The finding of one validator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
     /// The judged criterion.
@@ -71,7 +71,7 @@ impl Report {
         first.any(|seen| seen.text == OVER)
     }
 
-    /// Adopts a judgement's witness or, if the search found no win, another player's win.
+    /// Adopts the witness of a judgement or, if the search found no win, the win of another player.
     pub(crate) fn accept(&mut self, judgement: &mut Judgement) {
         if let (Verdict::Unknown { .. }, Some(won)) = (&judgement.finding.verdict, self.shortest_win()) {
             judgement.finding.verdict = Verdict::Pass { witness: Some(won) };
@@ -87,8 +87,8 @@ impl Report {
         won.min_by_key(|episode| episode.actions.len()).cloned()
     }
 
-    /// Returns all episodes played by the validators, from most to least informative: first the witness, then
-    /// the episodes of the last validators.
+    /// Returns all episodes that the validators played, from most to least informative. The witness comes first,
+    /// followed by the episodes of the last validators.
     pub fn episodes(&self) -> Vec<Episode> {
         let played = self.judgements.iter().rev().flat_map(|judgement| {
             let shown = match &judgement.finding.verdict {

@@ -22,11 +22,11 @@ base::with_defaults! {
         pub decision: u64 = 500,
         /// The total number of forward-model calls to find a win.
         pub budget: u64 = 3_000_000,
-        /// The fraction of the budget that may be used to prove the number of ticks of the shortest win, in a
-        /// deterministic game.
+        /// In a deterministic game, the fraction of the budget that may be used to prove the length of the shortest
+        /// win.
         pub shortest: f64 = 0.1,
-        /// The fraction of the budget that is kept for a search that foresees all randomness of an episode, in a
-        /// stochastic game.
+        /// In a stochastic game, the fraction of the budget that is reserved for a search that foresees all randomness
+        /// of an episode.
         #[serde(skip_serializing_if = "is_zero")]
         pub foresight: f64 = 0.0,
         /// The look-ahead in ticks of the bold tree searches among the players that look for a win.
@@ -52,9 +52,9 @@ base::with_defaults! {
         pub early_seeds: u32 = 20,
         /// The maximum fraction of these seeds with which death may be unavoidable.
         pub early_deaths: f64 = 0.05,
-        /// The players that measure difficulty and skill, from weakest to strongest: `mcts:500`.
+        /// The players that measure difficulty and skill, from weakest to strongest, such as `mcts:500`.
         pub ladder: Vec<String> = names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
-        /// The players that must show skill too, and that never guide a search.
+        /// The players that must show skill as well, and that never guide a search.
         pub held_out: Vec<String> = names(&["mcts:300", "olets:200"]),
         /// The maximum number of episodes of each player.
         pub ladder_plays: u64 = 12,
@@ -64,8 +64,8 @@ base::with_defaults! {
         pub patience: usize = 3,
         /// The minimum difference between the win rates of stronger and weaker players.
         pub skill_wins: f64 = 0.25,
-        /// The minimum difference between their mean scores, as a fraction of the range of all scores, which is
-        /// sufficient instead.
+        /// The minimum difference between their mean scores, as a fraction of the range of all scores. Reaching it is
+        /// sufficient even if `skill_wins` is not reached.
         pub skill_scores: f64 = 0.1,
         /// The minimum difference between win rates over all levels together, at the lower end of the 95% interval.
         pub skill_overall: f64 = 0.25,
@@ -103,8 +103,8 @@ fn wrong<T>(key: &'static str, message: impl Into<String>) -> Result<T, Criteria
 }
 
 impl Criteria {
-    /// Returns the criteria for a single game, including criteria not used by minting. `skill-overall` is not
-    /// included, because it may fail a good game merely because the game is too hard.
+    /// Returns the criteria for a single game, including criteria not used by minting. `skill-overall` is not included,
+    /// because it may fail a good game merely for being too hard.
     pub fn full() -> Criteria {
         let all = Criteria::of_generated_games();
         Criteria { ask: all.ask.without(CriterionSet::of(&[Criterion::SkillOverall])), ..all }
@@ -202,7 +202,7 @@ impl Criteria {
     }
 }
 
-/// Criteria whose thresholds are in range, as judges require. Narrowing the set of criteria cannot fail.
+/// Criteria whose thresholds are in range, as judges require. A subset of them needs no further check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedCriteria {
     criteria: Criteria,

@@ -1,4 +1,4 @@
-//! The judge traits.
+//! The traits of judges.
 
 use crate::case::Case;
 use crate::criterion::{About, Criterion, Stage};
@@ -44,8 +44,8 @@ pub(crate) struct GameCase<'a> {
 
 /// The judge for a game criterion.
 pub(crate) trait GameValidator: Sync {
-    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge needs to,
-    /// the recording is not replayed, and no random walks search for executions of the remaining rules.
+    /// Returns `true` if the judge needs to know which rules the recording executes. If no judge needs this, the
+    /// recording is not replayed, and no random walks search for executions of the remaining rules.
     fn asks_for_usage(&self) -> bool {
         false
     }

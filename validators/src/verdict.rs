@@ -1,4 +1,4 @@
-//! A validator's result.
+//! The result of a validator.
 
 use crate::evidence::Evidence;
 use crate::measures::ladder::{Ladder, Rate};
@@ -32,7 +32,7 @@ pub struct Finding {
     /// The ladder's results, if a ladder was played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// The episodes played, which show the rules that play uses.
+    /// The episodes played, which show the rules that are used in play.
     #[serde(skip)]
     pub episodes: Vec<Episode>,
 }

@@ -1,9 +1,9 @@
 //! Steps many states of one game together, for learners that play many episodes in parallel and for planners
 //! that try many futures of one state.
 //!
-//! Each state has its own random seed and keeps its index on every thread, so no result depends on the number
-//! of threads. Actions and results are slices, so that one call replaces thousands. Lanes are not reset
-//! automatically, so the caller can inspect an episode's last state before deciding how to continue.
+//! Each state has its own random seed, and keeps its index on every thread, so no result depends on the number of
+//! threads. Actions and results are slices, so that one call replaces thousands. Lanes are not reset automatically,
+//! so the caller can inspect the last state of an episode before deciding how to continue.
 
 use base::Seed;
 use engine::{Action, Chance, Game, Level, Outcome, State};
@@ -13,8 +13,8 @@ use rayon::prelude::*;
 /// thread waits long for the last task to finish.
 const STEPS_OF_A_TASK: usize = 64;
 
-/// A batch of states of one game, each with its current episode. A lane consists of the state and the values
-/// at one index.
+/// A batch of states of one game, each with its current episode. A lane consists of the state and all other values at
+/// one index.
 ///
 /// Work is distributed over the current rayon pool. Fewer than a few hundred steps run on the calling thread.
 ///
@@ -86,11 +86,11 @@ const STEPS_OF_A_TASK: usize = 64;
 pub struct Batch {
     game: Game,
     seed: Seed,
-    /// The initial states of episodes. Lane `i` starts from the state with the index `i % roots.len()`. The
-    /// list is never empty.
+    /// The initial states of episodes. Lane `i` starts from the state at index `i % roots.len()`. The list is never
+    /// empty.
     roots: Vec<State>,
     states: Vec<State>,
-    /// The number of earlier episodes in each lane, whether finished or abandoned.
+    /// The number of previous episodes in each lane, whether finished or abandoned.
     episodes: Vec<u64>,
     outcomes: Vec<Outcome>,
     scores: Vec<f64>,
@@ -160,8 +160,8 @@ impl Batch {
         batch
     }
 
-    /// Replaces all episodes with futures of `state`, as in [`Batch::fork`]. Does not allocate once the
-    /// buffers are large enough.
+    /// Replaces all episodes with futures of `state`, like [`Batch::fork`]. Does not allocate once the buffers are
+    /// large enough.
     pub fn fork_from(&mut self, state: &State, seed: Seed) {
         self.roots.truncate(1);
         self.roots[0].clone_from(state);
@@ -223,9 +223,9 @@ impl Batch {
         self.play(actions)
     }
 
-    /// Plays a plan in every lane. All plans have the same length. The layout of `plans` is `[lane][tick]`,
-    /// one plan after the other. The results are the same as calling [`Batch::step`] once per tick, but
-    /// `play` is faster, because the threads synchronise once instead of in every tick.
+    /// Plays a plan in every lane. All plans have the same length. The layout of `plans` is `[lane][tick]`, one plan
+    /// after the other. The results are the same as if [`Batch::step`] were called once per tick. However, `play` is
+    /// faster, because the threads synchronise only once instead of in every tick.
     ///
     /// # Errors
     ///
@@ -278,7 +278,7 @@ impl Batch {
         count
     }
 
-    /// Resets the lanes whose outcome matches to the start of their episode.
+    /// Resets every lane whose outcome matches to the start of its current episode.
     fn begin(&mut self, whose: impl Fn(&Outcome) -> bool + Sync) {
         let (seed, roots) = (self.seed, &self.roots);
         (&mut self.states, &self.episodes, &mut self.outcomes, &mut self.scores)

@@ -4,10 +4,10 @@ use crate::{Budget, Planner};
 use base::Seed;
 use engine::{Action, Game, State};
 
-/// A player that commits to several actions at a time. It plans each action in the state that it imagines
-/// after the previous actions. In a deterministic game, the imagined state is the actual next state. In a
-/// stochastic game, it is one of many possible states, drawn from a random stream that belongs neither to the
-/// planner nor to the game.
+/// A player that commits to several actions at a time. It plans each action in the state that it imagines after the
+/// previous actions. In a deterministic game, the imagined state is the actual next state. In a stochastic game, it
+/// is one of many possible states, drawn from a random stream that is separate from those of the planner and the
+/// game.
 #[derive(Clone, Debug)]
 pub struct OpenLoop<P> {
     planner: P,
@@ -17,13 +17,13 @@ pub struct OpenLoop<P> {
 }
 
 impl<P: Planner> OpenLoop<P> {
-    /// Creates a player with a budget for each action and a seed for the imagined states.
+    /// Creates a player with a budget for each action, and with a seed for the imagined states.
     pub fn new(planner: P, budget: Budget, seed: Seed) -> OpenLoop<P> {
         OpenLoop { planner, budget, futures: seed.child("imagined plan", 0), plans: 0 }
     }
 
-    /// Returns `count` actions and their cost in forward-model calls. Returns fewer actions if the game ends
-    /// in the imagined future. If `count` is 1, the only action is the planner's own choice.
+    /// Returns `count` actions, and their cost in forward-model calls. Returns fewer actions if the game ends in the
+    /// imagined future. If `count` is 1, the action is the one that the planner would choose.
     pub fn plan(&mut self, game: &Game, state: &State, count: u64) -> (Vec<Action>, u64) {
         let (first, mut calls) = self.planner.plan(game, state, self.budget);
         let mut actions = vec![first];

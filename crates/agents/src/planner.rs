@@ -16,20 +16,20 @@ impl Budget {
 
 /// A player that chooses actions by looking ahead on copies of the state.
 pub trait Planner {
-    /// Returns the next action and its cost in forward-model calls. A search checks its budget before each iteration, so it may
-    /// exceed the budget by one iteration.
+    /// Returns the next action, and its cost in forward-model calls. A search checks its budget before each
+    /// iteration, so it may exceed the budget by one iteration.
     fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64);
 }
 
-/// The source of the random streams for a planner's decisions. Each decision has its own streams, so a saved
-/// planner needs only its seed and its number of decisions.
+/// The source of random streams for a planner's decisions. Each decision has its own streams, so it is enough to save
+/// a planner's seed and its number of decisions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Streams {
     seed: Seed,
     decisions: u64,
 }
 
-/// The random streams for one decision: the planner's choices, and the imagined outcomes.
+/// The random streams for one decision: one for the planner's choices, and one for the imagined outcomes.
 pub(crate) struct Decision {
     pub(crate) choices: Sampler,
     imagined: Sampler,
@@ -52,7 +52,7 @@ impl Streams {
 }
 
 impl Decision {
-    /// Overwrites `copy` with a copy of the state that has an imagined future.
+    /// Overwrites `copy` with a copy of the state whose future is imagined.
     pub(crate) fn fork_with_random_future(&mut self, copy: &mut State, state: &State) {
         copy.fork_from(state, Chance::from_java(self.imagined.bits() as i64));
     }

@@ -38,8 +38,8 @@ pub fn play(
     play_until(game, level, planner, budget, seed, limits, &|| false)
 }
 
-/// A function that returns `true` once the result is no longer needed. A result that is complete before then
-/// does not depend on the function.
+/// A function that returns `true` once the result is no longer needed. A result that is completed before that does
+/// not depend on the function.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Plays like [`play`], but stops before the next decision once `stopped` returns `true`.

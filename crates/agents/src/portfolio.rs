@@ -1,4 +1,4 @@
-//! A portfolio of methods for winning a level: the default method to determine whether a level can be won.
+//! A portfolio of methods for winning a level, which is the default method to determine whether a level can be won.
 
 use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, Stopped, play_until};
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters of the portfolio: how it divides a budget between its methods.
+    /// The parameters of the portfolio, which divide a budget between its methods.
     ///
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then
     /// [`best_first`]. After that, and from the start in stochastic games, planners play episodes in rounds
@@ -24,8 +24,8 @@ base::with_defaults! {
     /// - [`Olets`] stays alive.
     /// - [`MctsConfig::bold`] searches take risks.
     ///
-    /// In a stochastic game with a budget for foresight, a [`best_first`] search that foresees all randomness
-    /// of one episode runs once the planners have spent half of their calls.
+    /// In a stochastic game, if part of the budget is reserved for foresight, a [`best_first`] search that foresees
+    /// all randomness of one episode runs once the planners have spent half of their calls.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
@@ -39,9 +39,9 @@ base::with_defaults! {
         pub foresight: f64 = 0.0,
         /// The memory limit of a systematic search, in bytes.
         pub bytes: usize = 1 << 30,
-        /// The planners' maximum number of calls per decision. Planners get fewer calls if an episode would
-        /// otherwise exceed its part of the budget. The cost is estimated for an episode of [`USUAL_TICKS`],
-        /// or for an episode that lasts until the winning tick.
+        /// The maximum number of calls per decision of a planner. Planners get fewer calls if an episode would
+        /// otherwise exceed its part of the budget. The cost is estimated for an episode of [`USUAL_TICKS`], or for
+        /// an episode that lasts until the tick at which survival wins.
         pub decision: u64 = 500,
         /// The look-ahead, in ticks, of each bold Monte-Carlo tree search. Each entry adds one such player.
         pub depths: Vec<u32> = vec![20],
@@ -51,7 +51,7 @@ base::with_defaults! {
 /// The result of the portfolio.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The answer about the level's winnability, as far as known.
+    /// The answer to the question whether the level can be won, as far as known.
     pub solution: Solution,
     /// The number of forward-model calls across all searches and episodes.
     pub calls: u64,
@@ -59,7 +59,7 @@ pub struct Solved {
     pub plays: Vec<Play>,
 }
 
-/// The answer about a level's winnability.
+/// An answer to the question whether a level can be won.
 #[derive(Clone, Debug)]
 pub enum Solution {
     /// The level was won in an episode.
@@ -80,8 +80,8 @@ pub enum Solution {
     Unknown,
 }
 
-/// The first round's budget is the total budget divided by this number. Each later round may cost twice as
-/// much as the one before.
+/// The divisor of the total budget that gives the budget of the first round. Each later round may cost twice as much
+/// as the one before.
 const FIRST_ROUND: u64 = 16;
 
 /// Searches for a win. The same configuration and seed produce the same result with any number of threads.
@@ -95,7 +95,7 @@ pub fn solve(
     solve_until(analysis, level, config, seed, &|| false)
 }
 
-/// Searches like [`solve`], but can be stopped. Soon after `stopped` returns `true`, the result is
+/// Searches like [`solve`], but can be stopped. Soon after `stopped` returns `true`, the search returns
 /// [`Solution::Unknown`]. A search that is not stopped returns the same result as [`solve`].
 pub fn solve_until(
     analysis: &Analysis,
@@ -142,7 +142,7 @@ pub fn solve_until(
     {
         return solved;
     }
-    // The search with foresight runs halfway through the planners' calls, with its own fraction of the
+    // The search with foresight runs once the planners have made half of their calls. It has its own fraction of the
     // budget.
     let mut foresight = if is_certain || start.is_over() { 0 } else { share(config.foresight).calls };
     let budget = config.budget - foresight;
@@ -152,7 +152,7 @@ pub fn solve_until(
         if foresight > 0 && (played >= budget / 2 || round == MAX_ROUNDS) {
             foresight = 0;
             let searched = best_first_until(analysis, &pushes, &start, share(config.foresight), stopped);
-            // The level may be winnable with different randomness.
+            // The level may still be winnable with different randomness.
             if matches!(searched.answer, Answer::Impossible) {
                 solved.calls += searched.calls;
             } else if take(&mut solved, searched) {
@@ -186,8 +186,8 @@ pub fn systematic_seed(solve: &SeedPath) -> SeedPath {
     solve.child("systematic", 0)
 }
 
-/// The maximum number of rounds. Without this limit, a game that ends immediately could be played for many
-/// rounds, because its episodes cost almost nothing.
+/// The maximum number of rounds. The limit is for games that end immediately. Their episodes cost almost nothing, so
+/// they could otherwise be played for many rounds.
 const MAX_ROUNDS: u64 = 20;
 
 /// The number of ticks that the budget for an episode should cover.
@@ -195,8 +195,8 @@ const USUAL_TICKS: u64 = 700;
 /// The minimum number of calls per decision.
 const LEAST_DECISION: u64 = 30;
 
-/// Plays one episode with each planner. The budget is divided equally between the planners, and an episode
-/// stops at the first decision that would exceed its part.
+/// Plays one episode with each planner. The budget is divided equally between the planners. An episode stops at the
+/// first decision that would exceed its part.
 fn play_round(
     analysis: &Analysis,
     level: &Level,
@@ -225,7 +225,7 @@ fn play_round(
             };
             let decision = match (survive, number) {
                 (Some(ticks), _) => affordable(ticks + 1),
-                // A long look-ahead is expensive, but it helps to find short wins.
+                // A long look-ahead is expensive, but helps to find short wins.
                 (None, 0) => config.decision,
                 (None, _) => affordable(USUAL_TICKS),
             };

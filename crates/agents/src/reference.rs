@@ -1,12 +1,12 @@
-//! Reference planners with a fixed number of forward-model calls per decision. Their win rates measure how
-//! hard a level is.
+//! Reference planners with a fixed number of forward-model calls per decision. Their win rates measure the difficulty
+//! of a level.
 
 use crate::planner::Budget;
 use crate::registry::{PlannerSpec, Player, UnknownPlanner};
 use base::Seed;
 
-/// A registered planner with a fixed number of forward-model calls per decision, written `mcts:500`. The
-/// planner depends only on its name and the number of calls, so its wins are comparable across levels.
+/// A registered planner with a fixed number of forward-model calls per decision, written as in `mcts:500`. The
+/// planner depends only on its name and on the number of calls, so its wins are comparable across levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReferencePlanner {
     name: String,
@@ -15,7 +15,7 @@ pub struct ReferencePlanner {
 }
 
 impl ReferencePlanner {
-    /// Parses `planner:calls`. A `planner` without calls gets `calls` calls per decision.
+    /// Parses `planner:calls`. If the text states no number of calls, the planner gets `calls` calls per decision.
     ///
     /// # Errors
     ///

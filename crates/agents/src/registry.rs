@@ -15,11 +15,11 @@ use std::str::FromStr;
 /// constructor that accepts a seed.
 macro_rules! planners {
     ($($name:literal $variant:ident($type:ty) $make:expr;)*) => {
-        /// The names of all planners, from weakest to strongest.
+        /// The names of all planners, ordered from weakest to strongest.
         pub const PLANNERS: &[&str] = &[$($name),*];
 
-        /// A registered planner with default parameters. A player can be saved between two decisions. After
-        /// loading, it continues as if it had never been saved.
+        /// A registered planner with default parameters. A player can be saved between two decisions. Once loaded, it
+        /// continues as if it had never been saved.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[serde(tag = "planner")]
         #[allow(missing_docs, clippy::large_enum_variant, reason = "the types say what each is; players are few")]
@@ -69,7 +69,8 @@ const BASELINES: [&str; 3] = ["do-nothing", "random", "random-with-nil"];
 /// Planners that look ahead but make only a few calls, regardless of their budget.
 const SHALLOW: [&str; 3] = ["one-step", "one-step-score", "nearest-goal"];
 
-/// A planner as users specify it: `mcts`, or `olets:500` with the number of forward-model calls per decision.
+/// A planner as specified by users: `mcts`, or `olets:500`, which includes the number of forward-model calls per
+/// decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannerSpec {
     name: String,
@@ -93,7 +94,7 @@ impl PlannerSpec {
         !BASELINES.contains(&self.name())
     }
 
-    /// Returns `true` if the planner spends its whole budget on each decision, instead of making few calls or
+    /// Returns `true` if the planner spends its whole budget on each decision, instead of making only a few calls or
     /// none.
     pub fn spends_its_budget(&self) -> bool {
         self.looks_ahead() && !SHALLOW.contains(&self.name())

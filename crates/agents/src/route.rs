@@ -8,7 +8,7 @@ use std::collections::BinaryHeap;
 pub const DIRECTIONS: [(Action, (isize, isize)); 4] =
     [(Action::Up, (0, -1)), (Action::Left, (-1, 0)), (Action::Down, (0, 1)), (Action::Right, (1, 0))];
 
-/// Returns the columns and rows by which a key moves the avatar, or `None` for a key without a direction.
+/// Returns the columns and rows by which a key moves the avatar, or `None` if the key has no direction.
 pub fn way(action: Action) -> Option<(isize, isize)> {
     DIRECTIONS.into_iter().find(|(known, _)| *known == action).map(|(_, way)| way)
 }
@@ -28,7 +28,7 @@ impl Board {
         Board { columns: seen.columns, rows: seen.rows }
     }
 
-    /// Returns a cell's neighbour, or `None` at the edge.
+    /// Returns the cell next to a cell in one direction, or `None` at the edge.
     pub fn beside(self, cell: usize, (right, down): (isize, isize)) -> Option<usize> {
         let column =
             (cell % self.columns).checked_add_signed(right).filter(|&column| column < self.columns)?;
@@ -36,7 +36,7 @@ impl Board {
         Some(row * self.columns + column)
     }
 
-    /// Returns a cell's neighbours.
+    /// Returns the cells next to a cell.
     pub fn around(self, cell: usize) -> impl Iterator<Item = usize> {
         DIRECTIONS.into_iter().filter_map(move |(_, way)| self.beside(cell, way))
     }
@@ -47,9 +47,9 @@ impl Board {
 pub struct Routes(Vec<Option<(u32, Action)>>);
 
 impl Routes {
-    /// Computes the cheapest paths with the given keys. `enter` returns the cost of entering a cell in a
-    /// direction, or `None` if the cell cannot be entered. `passes` returns `false` for a cell that can be
-    /// entered but not crossed. Cost: O(cells log cells).
+    /// Computes the cheapest paths with the given keys. `enter` returns the cost of entering a cell in a given
+    /// direction, or `None` if the cell cannot be entered. `passes` returns `false` for a cell that can be entered
+    /// but not crossed. Cost: O(cells log cells).
     pub fn from(
         board: Board,
         start: usize,

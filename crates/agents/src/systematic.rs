@@ -1,4 +1,4 @@
-//! Systematic search as a player.
+//! A player that uses systematic search.
 
 use crate::planner::{Budget, Planner, Streams};
 use crate::search::{Answer, Pushes, SearchLimits, best_first};
@@ -7,24 +7,24 @@ use engine::analysis::Analysis;
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// The length in ticks of a plan in a stochastic game, and of the first plan without a win in a deterministic game.
+/// The length of a plan in a stochastic game, and of the first plan without a win in a deterministic game, in ticks.
 const AHEAD: usize = 10;
 
-/// A player that uses [`best_first`] to search for a complete winning plan, and plays it without searching
-/// again. If the player finds no win within the budget, it plays towards the state in which the fewest
-/// sprites must still disappear or appear, and then presses random keys.
+/// A player that uses [`best_first`] to search for a complete winning plan, and plays this plan without searching
+/// again. If the player finds no win within the budget, it plays towards the state in which the fewest sprites must
+/// still disappear or appear, and then presses random keys.
 ///
-/// In a deterministic game, a winning plan remains correct regardless of its length. After a plan that does
-/// not win, the player searches again after ten ticks, and doubles this interval with each further search. In
-/// a stochastic game, the search treats one imagined future as the only possible future. Such a search gets a
-/// tenth of the budget and is repeated after ten ticks.
+/// In a deterministic game, a winning plan stays correct, however long it is. After a plan that does not win, the
+/// player searches again after ten ticks, and doubles this interval with each further search. In a stochastic game,
+/// the search treats one imagined future as the only possible one. Such a search gets a tenth of the budget, and is
+/// repeated after ten ticks.
 ///
 /// Cost: the budget, or a tenth of it, for each new plan, and no calls in between. A search uses up to a
 /// gibibyte of memory.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Systematic {
     streams: Streams,
-    /// The rest of the plan, in reverse order.
+    /// The rest of the plan, last action first.
     plan: Vec<Action>,
     /// The minimum number of ticks between an unsuccessful search and the next search.
     pause: usize,

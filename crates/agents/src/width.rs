@@ -1,15 +1,15 @@
-//! Iterated width with replanning, also for stochastic games.
+//! Iterated width search with replanning, also for stochastic games.
 //!
-//! Each decision looks ahead breadth first from copies of the state, each with its own random seed. The
-//! look-ahead continues only from novel states, in which a type has a sprite in a cell that is new to the
-//! look-ahead.
+//! In each decision, the planner looks ahead breadth first from copies of the state, each with its own random seed.
+//! The look-ahead continues only from novel states, in which a type has a sprite in a cell where the look-ahead has
+//! not seen that type yet.
 //!
-//! The method is IW(1): see Lipovetzky and Geffner 2012, "Width and serialization of classical planning
-//! problems", and Lipovetzky, Ramirez and Geffner 2015, "Classical planning with simulators: results on the
-//! Atari video games". It looks far ahead with few calls, whereas random rollouts stay near.
+//! The method is IW(1): see Lipovetzky and Geffner 2012, "Width and serialization of classical planning problems",
+//! and Lipovetzky, Ramirez and Geffner 2015, "Classical planning with simulators: results on the Atari video games".
+//! The method looks far ahead with few calls, whereas random rollouts do not get far from the start.
 //!
-//! The best plans found, one per first action, are then tried again with different seeds, because a single
-//! good result in a stochastic game may be luck. The plan with the best average is played.
+//! The best plans found, one per first action, are then retried with different seeds, because a single good result in
+//! a stochastic game may be luck. The plan with the best average is played.
 
 use crate::guides::features::{Atoms, Features};
 use crate::guides::progress::Progress;
@@ -27,15 +27,15 @@ base::with_defaults! {
     pub struct WidthConfig {
         /// The factor by which each tick of delay discounts a reward.
         pub discount: f64 = 0.98,
-        /// The fraction of the budget for looking ahead. The rest is spent on retrying the plans.
+        /// The fraction of the budget spent on looking ahead. The rest is spent on retrying the plans.
         pub look: f64 = 0.6,
-        /// The number of ticks of a plan to retry. Later ticks can still be replanned when they come.
+        /// The number of ticks of a plan that are retried. Later ticks can still be replanned in time.
         pub horizon: usize = 12,
         /// The weight of a loss, in multiples of the largest gain seen.
         pub loss: f64 = 10.0,
-        /// The value, in points, of reaching a state with an atom that is new in this episode. An atom present
-        /// in one earlier tick is worth half as much, one present in two earlier ticks a third as much, and so
-        /// on.
+        /// The value, in points, of reaching a state with an atom that is new in this episode. An atom that was
+        /// present in one earlier tick is worth half as much, one that was present in two earlier ticks a third as
+        /// much, and so on.
         pub curiosity: f64 = 0.1,
     }
 }
@@ -43,7 +43,7 @@ base::with_defaults! {
 /// The weight of a win, in multiples of the largest gain seen.
 const WIN: f64 = 20.0;
 
-/// A planner that uses iterated width.
+/// A planner that uses iterated width search.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Width {
     config: WidthConfig,
@@ -65,7 +65,7 @@ pub struct Width {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Plan {
     actions: Vec<Action>,
-    /// The discounted rewards up to and including each action.
+    /// For each action, the sum of the discounted rewards up to and including that action.
     values: Vec<f64>,
     /// The extra value of the plan's final state.
     bonus: f64,
@@ -82,7 +82,7 @@ impl Plan {
         self.value(usize::MAX) + self.bonus
     }
 
-    /// Returns the rest of the plan after its first action.
+    /// Returns the plan without its first action.
     fn rest(&self, discount: f64) -> Option<Plan> {
         let (&first, values) = self.values.split_first()?;
         if values.is_empty() {
@@ -101,7 +101,7 @@ struct Node {
     parent: usize,
     action: Action,
     depth: u32,
-    /// The discounted rewards on the path, without curiosity.
+    /// The sum of the discounted rewards on the path, without curiosity.
     value: f64,
     /// The value of a plan that ends at this node.
     worth: f64,
@@ -295,7 +295,7 @@ impl Planner for Width {
                 tried.count += 1.0;
             }
         }
-        // The value of a plan beyond the horizon counts in proportion to the tries that reach the horizon.
+        // The value beyond the horizon counts in proportion to the tries that reach the horizon.
         let expected = |(plan, tried): (&Plan, &Tried)| {
             if tried.count == 0.0 {
                 return plan.worth();

@@ -12,9 +12,9 @@ use std::collections::BTreeMap;
 /// The words that can be inserted at a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// The already written part of the word, which the chosen item replaces.
+    /// The part of the word that has already been written. The chosen item replaces it.
     pub span: Span,
-    /// The words, most likely first. Words that do not match the written part are included.
+    /// The words, most likely first. Words that do not match the part already written are included.
     pub items: Vec<Item>,
 }
 
@@ -84,10 +84,10 @@ pub fn complete(source: &str, at: usize) -> Completion {
     Completion { span: Span::new(start, at), items }
 }
 
-/// The position for a completion.
+/// The position at which words are completed.
 struct Context<'a, 'b> {
     words: &'b Words<'a>,
-    /// The line, if it contains a word before the position.
+    /// The line of the position, if it contains a word before the position.
     line: Option<&'b Line<'a>>,
     line_start: usize,
     word_start: usize,
@@ -100,7 +100,7 @@ impl<'a> Context<'a, '_> {
         let above = above.map(|line| line.place);
         match (above, self.line.map(|line| line.place)) {
             (None, _) => Place::Header,
-            // The line may look like a section only because it is incomplete.
+            // The line may look like a section name only because it is incomplete.
             (Some(Place::Head(section) | Place::Body(section)), _) => Place::Body(section),
             (Some(Place::Header | Place::Outside), own) => own.unwrap_or(Place::Outside),
         }
@@ -116,7 +116,7 @@ impl<'a> Context<'a, '_> {
         self.before().any(|word| word.role == Role::Arrow)
     }
 
-    /// Returns `true` if lines of this kind accept parameters after their words.
+    /// Returns `true` if lines of this kind accept parameters after their other words.
     fn allows_parameters(&self) -> bool {
         self.place() != Place::Body(Section::LevelMapping)
     }
@@ -295,8 +295,8 @@ mod tests {
 
     const GAME: &str = "BasicGame |\n    SpriteSet\n        fox > Missile orientation=RIGHT\n        den > SpawnPoint stype=fox\n    LevelMapping\n        f > fox\n    InteractionSet\n        fox wall > killSprite\n    TerminationSet\n        Timeout limit=9\n";
 
-    /// Checks the completions at the `|` in a text that replaces a part of the game. `offered` are the words
-    /// that must be offered, and `others` are the words that must not be offered.
+    /// Checks the completions at the `|` in `instead`, which replaces `part` in the game. `offered` are words that
+    /// must be offered, and `others` are words that must not be offered.
     #[track_caller]
     fn check(part: &str, instead: &str, offered: &[&str], others: &[&str]) {
         let game = GAME.replace('|', "");

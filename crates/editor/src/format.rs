@@ -8,7 +8,7 @@ use engine::{Diagnostics, syntax};
 ///
 /// # Errors
 ///
-/// Returns the problems in the text if any line cannot be parsed, because the canonical form would omit that
+/// Returns the problems in the text if any line cannot be parsed, because the canonical form would then omit that
 /// line.
 pub fn format(source: &str) -> Result<String, Vec<Problem>> {
     let (description, found) = syntax::parse(source);

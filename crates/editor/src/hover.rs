@@ -21,9 +21,9 @@ pub struct Hover {
 /// The maximum number of sentences about a sprite type.
 const SENTENCES: usize = 12;
 
-/// Returns the explanation of the word at byte `at`. VGDL keywords are explained by their manual pages.
-/// Sprite types and level characters are explained by their use in the game. Sentences about rules require a
-/// game that compiles.
+/// Returns the explanation of the word at byte `at`. VGDL keywords are explained by their manual pages, and sprite
+/// types and level characters by their use in the game. Sentences about rules are available only if the game
+/// compiles.
 pub fn hover(source: &str, at: usize) -> Option<Hover> {
     let words = Words::of(source);
     let word = words.at(at)?;
@@ -42,8 +42,8 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
     Some(Hover { span: word.span, markdown })
 }
 
-/// Returns the explanation of the character at byte `at` in a level: the sprites that the character places in
-/// this game.
+/// Returns the explanation of the character at byte `at` in a level, which lists the sprites that the character
+/// places in this game.
 pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
     let (span, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
@@ -155,7 +155,7 @@ fn of_sprite(source: &str, words: &Words<'_>, name: &str) -> Option<String> {
     Some(markdown)
 }
 
-/// Returns a type's ancestors, its subtypes, and its parameters, each with its origin.
+/// Returns a type's ancestors, subtypes and parameters. The origin of each parameter is stated.
 fn of_declaration(words: &Words<'_>, sprite: &Sprite<'_>) -> String {
     let mut markdown = String::new();
     let names: Vec<String> = words.ancestors(sprite).map(|above| format!("`{}`", above.name)).collect();
@@ -196,7 +196,7 @@ impl Told {
         Some(Told { game, lines: all.concat() })
     }
 
-    /// Returns the sentences about a type, or about its ancestors or descendants.
+    /// Returns the sentences that mention a type, or one of its ancestors or descendants.
     fn sentences<'a>(&'a self, words: &Words<'_>, name: &str) -> impl Iterator<Item = &'a str> {
         let mut names = vec![name.to_owned(), plural(name)];
         let above = words.sprite(name).into_iter().flat_map(|sprite| words.ancestors(sprite));
@@ -211,7 +211,7 @@ impl Told {
             text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(is_meant)
         };
         let speaks = move |line: &&str| {
-            // Everything after the first sentence of a line about the player describes changes to the score.
+            // In a line about the player, everything after the first sentence describes changes to the score.
             let first = line.split(". ").next().unwrap_or_default();
             let is_player = |word: &str| ["You", "you"].contains(&word);
             said(line, &|word| names.iter().any(|name| name == word)) || is_avatar && said(first, &is_player)

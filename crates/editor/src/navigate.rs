@@ -47,8 +47,7 @@ pub fn level_definition(source: &str, level: &str, at: usize) -> Option<Span> {
     Subject::Symbol(symbol).places(&words).next().map(|word| word.span)
 }
 
-/// Returns the character that starts at byte `at` in a level, and its span. Returns `None` for spaces and
-/// line ends.
+/// Returns the character that starts at byte `at` in a level, with its span. Returns `None` for spaces and line ends.
 pub(crate) fn symbol_at(level: &str, at: usize) -> Option<(Span, &str)> {
     let symbol = level.get(at..)?.chars().next().filter(|c| !c.is_whitespace())?;
     let span = Span::new(at, at + symbol.len_utf8());

@@ -26,7 +26,7 @@ pub enum EntryKind {
 pub struct Entry {
     /// The entry's name. For an interaction, the name consists of its sprites and its effect.
     pub name: String,
-    /// A class, or the names that a character places. May be empty.
+    /// The type's class, or the names that the character places. May be empty.
     pub detail: String,
     /// The kind of the entry.
     pub kind: EntryKind,

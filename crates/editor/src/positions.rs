@@ -1,4 +1,4 @@
-//! Positions in the units that editors use: UTF-16 code units instead of bytes, and lines with columns.
+//! Positions in the units that editors use: UTF-16 code units instead of bytes, or lines and columns.
 
 /// The unit in which columns are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,8 +96,8 @@ impl Lines {
         Position { line, column: unit.length(&text[self.starts[line]..at]) }
     }
 
-    /// Returns the byte offset of a position in the text. A column beyond the line's end is treated as the
-    /// end of the line, and a line beyond the last one as the end of the text.
+    /// Returns the byte offset of a position in the text. A column beyond the end of the line counts as the end of
+    /// the line, and a line beyond the last one counts as the end of the text.
     pub fn byte(&self, text: &str, position: Position, unit: Unit) -> usize {
         let Some(&start) = self.starts.get(position.line) else { return text.len() };
         let end = self.starts.get(position.line + 1).copied().unwrap_or(text.len());

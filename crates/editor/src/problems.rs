@@ -1,4 +1,4 @@
-//! The problems in a text, each with its machine-applicable fixes.
+//! The problems in a text, each with fixes that can be applied automatically.
 
 use engine::{Diagnostic, Edit, Fix, Game, LevelMapping, Severity, Span};
 
@@ -30,8 +30,8 @@ impl Problem {
     }
 }
 
-/// Returns the errors and warnings about a game's text, sorted by position. Problems that concern the rules
-/// as a whole are found only if there are no errors.
+/// Returns the errors and warnings about a game's text, sorted by position. Problems with the rules as a whole are
+/// found only if there are no errors.
 pub fn problems(source: &str) -> Vec<Problem> {
     let found = match Game::from_source(source) {
         Ok(game) => game.warnings().to_vec(),

@@ -62,8 +62,8 @@ pub fn renamable(source: &str, at: usize) -> Result<Span, RenameError> {
     }
 }
 
-/// Returns the edits that rename the sprite type or level character at byte `at` everywhere in the game. Levels must
-/// follow a renamed character, as in [`rename_in_level`].
+/// Returns the edits that rename the sprite type or level character at byte `at` everywhere in the game. If a
+/// character is renamed, the levels must be changed accordingly: see [`rename_in_level`].
 ///
 /// # Errors
 ///

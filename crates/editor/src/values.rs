@@ -1,4 +1,4 @@
-//! The kinds of values that parameters accept, and the values of enumerable kinds.
+//! The kinds of values that parameters accept, and the possible values of enumerable kinds.
 
 use engine::{ParameterKind, SpriteClass, effect_parameters};
 
@@ -9,7 +9,7 @@ pub(crate) enum Owner<'a> {
     Game,
     /// A sprite type of the given class, either inherited or its own.
     Sprite(Option<SpriteClass>),
-    /// An effect, identified by its keyword. The second keyword belongs to the effect that it schedules,
+    /// An effect, identified by its keyword. The second keyword is that of the effect that the first one schedules,
     /// if any.
     Effect(&'a str, Option<&'a str>),
     /// A termination, identified by its class.
@@ -94,7 +94,7 @@ pub(crate) fn kind(owner: Owner<'_>, key: &str) -> Option<Kind> {
     }
 }
 
-/// Returns the kind of a parameter that refers to sprites and may appear on lines of any kind.
+/// Returns the kind of a parameter that refers to sprites, and may appear on lines of any kind.
 fn of_line(key: &str) -> Option<Kind> {
     (key.starts_with("stype") || ["ammo", "spawnBehind", "resource_name"].contains(&key))
         .then_some(Kind::Sprites)

@@ -1,5 +1,5 @@
-//! The words in a game's text and their roles in the game, line by line. An incomplete line affects only its
-//! own words, and roles are known even if the game does not compile.
+//! The words in a game's text and their roles, line by line. An incomplete line affects only its own words, and roles
+//! are known even if the game does not compile.
 
 use crate::values;
 use crate::values::Owner;
@@ -79,7 +79,7 @@ pub(crate) struct Word<'a> {
     pub(crate) span: Span,
     pub(crate) role: Role,
     pub(crate) owner: Owner<'a>,
-    /// The parameter to whose value the word belongs.
+    /// The parameter whose value contains the word.
     pub(crate) key: Option<&'a str>,
 }
 
@@ -96,7 +96,7 @@ pub(crate) struct Line<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Sprite<'a> {
     pub(crate) name: &'a str,
-    /// The sprites' class. An inherited class takes precedence over a class on the line.
+    /// The class of the sprites. An inherited class takes precedence over a class on the line.
     pub(crate) class: Option<SpriteClass>,
     /// The index of the parent type.
     pub(crate) parent: Option<usize>,
@@ -127,7 +127,7 @@ pub(crate) fn code(raw: &str) -> &str {
     }
 }
 
-/// Returns the section named on a line, even if the name is misspelt.
+/// Returns the section named on a line, even if its name is misspelt.
 fn section(text: &str) -> Option<Section> {
     let exact = SECTIONS.into_iter().find(|section| section.name() == text);
     exact.or_else(|| {
@@ -138,7 +138,8 @@ fn section(text: &str) -> Option<Section> {
 }
 
 impl<'a> Words<'a> {
-    /// Splits a text into words. A text too long to parse yields no words, and overlong lines are omitted.
+    /// Splits a text into words. A text that is too long to parse yields no words, and lines that are too long are
+    /// omitted.
     pub(crate) fn of(source: &'a str) -> Words<'a> {
         if source.len() > MAX_SOURCE {
             return Words { lines: Vec::new(), sprites: Vec::new() };
@@ -333,7 +334,7 @@ impl Reader<'_> {
         words
     }
 
-    /// Returns the role of a word preceded by `count` words on the same side of the arrow.
+    /// Returns the role of a word that is preceded by `count` words on the same side of the arrow.
     fn role(&self, token: &str, is_past: bool, count: usize) -> Role {
         use Section as S;
         match (self.place, is_past, count) {

@@ -18,7 +18,7 @@ pub enum Origin {
     Generated {
         /// The generator's name.
         generator: String,
-        /// The kernel, its variants and the scene, each with its kind: `kernel/one-spark`.
+        /// The kernel, its variants and the scene, each prefixed with its kind, as in `kernel/one-spark`.
         patterns: Vec<String>,
         /// The index of the candidate among the candidates for the game's position in the release, from 0.
         candidate: u32,
@@ -52,8 +52,8 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
-    /// Returns the kernel and variants of a generated game, without duplicates. For games of earlier generations,
-    /// returns all patterns except the theme or scene and the edits from search and shrinking.
+    /// Returns the kernel and variants of a generated game, without duplicates. For games from earlier generators,
+    /// returns all patterns except the theme or scene and the edits made by search and shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =
@@ -99,7 +99,7 @@ pub struct LevelCard {
     pub random: Rate,
     /// The win rate of players that do nothing.
     pub idle: Rate,
-    /// The results of a ladder's players and the difficulty derived from them, if the recipe requests `skill`.
+    /// The results of the ladder's players and the difficulty derived from them, if the recipe requests `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
     /// A win's demands on a player, if the recipe requests tiers.

@@ -1,4 +1,4 @@
-//! Games and levels on request, generated as candidates and then judged.
+//! Games and levels on request. Candidates are generated and then judged.
 //!
 //! `generators` proposes candidates and `validators` judges them. In this crate, a search requests candidates and
 //! learns from verdicts until an order is filled. [`levels::make_levels`] generates levels for one game, and

@@ -2,14 +2,14 @@
 
 use crate::games::Kept;
 
-/// A receiver of progress events, which can also return the results of an interrupted run. Must support
-/// calls from several threads.
+/// A receiver of progress events, which can also supply the results of an interrupted run. Its methods may be called
+/// from several threads at once.
 pub trait Progress: Sync {
     /// Called after a candidate is evaluated or judged.
     fn looked(&self) {}
     /// Called after a candidate is accepted: a game with this title, or the level with this number.
     fn made(&self, _what: &str) {}
-    /// Returns an attempt's result from an interrupted run for the same games.
+    /// Returns the result of an attempt that an interrupted run for the same games has saved.
     fn kept(&self, _attempt: &str) -> Option<Kept> {
         None
     }

@@ -20,7 +20,7 @@ pub(crate) fn rank(label: Difficulty) -> usize {
     LABELS.iter().position(|known| *known == label).expect("all labels are listed")
 }
 
-/// Counts the criteria that were the first to fail.
+/// Counts how often each criterion was the first to fail.
 pub(crate) fn obstacles<'a>(first: impl Iterator<Item = &'a Judgement>) -> BTreeMap<String, u64> {
     counted(first.map(|judgement| judgement.criterion.name()))
 }
@@ -41,8 +41,8 @@ pub(crate) struct PlayerRate {
 }
 
 impl PlayerRate {
-    /// Adds the players of several ladders to a section: the ladder players from weakest to strongest, then the
-    /// held-out players.
+    /// Adds each player's results over several ladders to a section. The ladder players come first, from weakest to
+    /// strongest, followed by the held-out players.
     pub(crate) fn add_all<'a>(section: Section, ladders: impl IntoIterator<Item = &'a Ladder>) -> Section {
         let mut players: Vec<PlayerRate> = Vec::new();
         for fared in ladders.into_iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out)) {
@@ -63,9 +63,9 @@ impl PlayerRate {
     }
 }
 
-/// Returns Spearman's rank correlation between a player's position in the ladder and its result, by wins first and
-/// then by score. The correlation is 1 if every stronger player does better. Returns `None` if all players do
-/// equally well.
+/// Returns Spearman's rank correlation between the players' positions in the ladder and their results. Results are
+/// compared by wins first and then by score. The correlation is 1 if every stronger player does better. Returns `None`
+/// if all players do equally well.
 pub(crate) fn in_order(fares: &[(f64, f64)]) -> Option<f64> {
     let worse = |own: &(f64, f64)| fares.iter().filter(|other| *other < own).count() as f64;
     let pairs: Vec<(f64, f64)> = fares.iter().enumerate().map(|(at, own)| (at as f64, worse(own))).collect();

@@ -1,5 +1,5 @@
-//! The common parts of the searches for levels and for games. Such a search evaluates candidates on all threads, stores
-//! the best, and picks candidates that are far apart in an archive.
+//! The common parts of the searches for levels and for games. Candidates are evaluated on all threads. The best are
+//! kept, and candidates that are far apart in an archive can be picked from it.
 
 use base::Digest;
 use generators::{Archive, Evaluated, Evaluation, Search};
@@ -45,7 +45,7 @@ impl<C: Clone> Finalists<C> {
         Finalists { best: Vec::new() }
     }
 
-    /// Adds a candidate if it is feasible, new by its key, and good enough.
+    /// Adds a candidate if it is feasible, not yet present by its key, and good enough.
     pub(crate) fn note(&mut self, candidate: &C, key: Digest, evaluation: &Evaluation) {
         if !evaluation.is_feasible() || self.best.iter().any(|(_, known, _)| *known == key) {
             return;
@@ -65,10 +65,10 @@ impl<C: Clone> Finalists<C> {
 /// An archive's elite, with its cell and the cell's bins.
 type Elite<'a, C> = (usize, Vec<usize>, &'a Evaluated<C>);
 
-/// Picks candidates from an archive that were not shown before, with their cells, spread as far apart as possible. Each
-/// step picks the candidate farthest from all taken or picked cells. Ties go to the better candidate, so the first pick
-/// is the best candidate if no cells are taken. Candidates near a taken or picked candidate are skipped, and may be
-/// picked later.
+/// Picks candidates that were not shown before from an archive, spread as far apart as possible, and returns them with
+/// their cells. Each step picks the candidate farthest from all taken or picked cells. Ties go to the better candidate,
+/// so the first pick is the best candidate if no cells are taken. Candidates near a taken or picked candidate are
+/// skipped, and may be picked later.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::Judgement;
 
-/// The candidates tried for one position or for a whole release, and the reasons for failures.
+/// The numbers of candidates tried for one position or for a whole release, and the reasons why candidates failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tally {
@@ -19,7 +19,7 @@ pub struct Tally {
     pub levels_accepted: u64,
     /// The number of forward-model calls made by all judges.
     pub calls: u64,
-    /// The number of levels that met all criteria except the requested difficulty, but were not won by any ladder
+    /// The number of levels that met all criteria except the requested difficulty and were not won by any ladder
     /// player.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unbeaten: u64,
@@ -56,7 +56,7 @@ pub struct JudgeCost {
     pub asked: u64,
     /// The number of rejected candidates.
     pub refused: u64,
-    /// The forward-model calls spent on accepted levels and games.
+    /// The forward-model calls spent on levels and games that were accepted.
     pub calls_accepted: u64,
     /// The forward-model calls spent on candidates rejected by this judge or a later one.
     pub calls_refused: u64,
@@ -150,8 +150,7 @@ impl Tally {
         cost.calls_accepted += calls;
     }
 
-    /// Adds the cost of `judge`. If `judge` does not accept anything, `refused` converts the cost before the
-    /// addition.
+    /// Runs `judge` and adds its cost. If `judge` accepts nothing, `refused` first converts the cost.
     pub(crate) fn spend<T>(
         &mut self,
         refused: fn(Tally) -> Tally,
@@ -249,7 +248,7 @@ impl Tally {
     }
 }
 
-/// Returns the text for a reason. Records store a reason as a criterion name or as a short phrase.
+/// Returns the text for a recorded reason, which is either a criterion name or a short phrase.
 fn words(why: &str) -> String {
     match why {
         "less than an earlier level" => "easier than the level before".to_owned(),
@@ -278,7 +277,7 @@ pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
 mod tests {
     use super::*;
 
-    /// A number before a criterion name, such as `96 winnable`, would read as praise.
+    /// A number before a bare criterion name, such as `96 winnable`, would read as a number of successes.
     #[test]
     fn rejections_are_sentences() {
         let counts = [

@@ -17,8 +17,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The minimum width of an image with a caption or a legend, in pixels.
 const MIN_WIDTH: u32 = 260;
 
-/// The scale of a sprite drawn over a different sprite in the same rectangle, chosen so that both sprites are
-/// visible.
+/// The scale of a sprite drawn over a different sprite in the same rectangle. Both sprites stay visible at this
+/// scale.
 const OVER: f32 = 0.78;
 /// The scale of a sprite that shares its rectangle with an avatar.
 const BESIDE: f32 = 0.46;
@@ -46,9 +46,9 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     Ok(picture)
 }
 
-/// Creates an image of a board, to which `draw` adds the sprites. `draw` receives the left edge of the board.
-/// The legend, and the space above it for a caption, are added as the style requires. Also returns the height
-/// of the board, below which the caption is placed.
+/// Creates an image of a board, to which `draw` adds the sprites. `draw` receives the left edge of the board. If the
+/// style requires them, adds the legend and leaves space above it for a caption. Also returns the height of the
+/// board, below which the caption is placed.
 pub(crate) fn framed(
     looks: &Looks,
     (columns, rows): (u32, u32),
@@ -120,7 +120,7 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
         }
     }
     let mut below: BTreeSet<[i32; 4]> = BTreeSet::new();
-    // Sprites in an avatar's rectangle come last, in its corners.
+    // Sprites in an avatar's rectangle are drawn last, in the corners of that rectangle.
     let mut company: BTreeMap<[i32; 4], usize> = BTreeMap::new();
     let shares = |record: &SpriteRecord| {
         let ground = looks.look(SpriteType(record.stype)).form.is_ground();
@@ -158,8 +158,8 @@ fn sprites(picture: &mut Picture, looks: &Looks, state: &State, left: u32, cell:
     heaps.into_values().filter(|(_, many)| *many > 1).for_each(|(place, many)| count(picture, place, many));
 }
 
-/// Writes the number of same-type sprites in a rectangle into its top left corner, because they look like a
-/// single sprite.
+/// Writes the number of sprites of the same type in a rectangle into its top left corner. Without the number, they
+/// would look like a single sprite.
 fn count(picture: &mut Picture, place: Place, many: usize) {
     let (text, size) = (many.to_string(), place.h * COUNT);
     let plate = Place { w: text_width(&text, size) + size * 0.2, h: size * 1.2, ..place };
@@ -185,8 +185,8 @@ pub(crate) fn over(place: Place) -> Place {
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }
 }
 
-/// Draws a plate with the glyph in the middle, for a sprite that is much wider than high or much higher than
-/// wide, because a stretched glyph would be unrecognisable. Returns the glyph's rectangle.
+/// Draws a plate with the glyph in the middle, for a sprite that is much wider than it is high, or vice versa. A
+/// stretched glyph would be unrecognisable. Returns the glyph's rectangle.
 fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     let Place { x, y, w, h } = place;
     let side = w.min(h);
@@ -202,8 +202,8 @@ fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
 /// The flag in [`SpriteRecord::flags`] for a killed avatar.
 const DISABLED: u16 = 1;
 
-/// Returns the direction of a sprite's front: its orientation, or its rotation for crafts without an
-/// orientation.
+/// Returns the direction that a sprite's front faces: its orientation or, for crafts without an orientation, its
+/// rotation.
 fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     if !glyph.turns() && glyph != Glyph::Avatar {
         return None;

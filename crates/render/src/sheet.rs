@@ -64,8 +64,8 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
     Ok(sheet)
 }
 
-/// Returns the lines of a caption, at least one. Overlong words are shortened to the length of a line. If
-/// there are too many lines, the last line is shortened as well.
+/// Returns the lines of a caption, of which there is at least one. Words that are too long are shortened to the
+/// length of a line. If there are too many lines, the last line is shortened as well.
 fn broken(caption: &str, letters: usize) -> Vec<String> {
     let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
     let mut lines = vec![first.to_owned()];

@@ -44,7 +44,7 @@ pub enum SnapshotError {
     /// The release to be packed is sealed, so part of it is withheld.
     #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.in_message())]
     HeldBack(PathBuf),
-    /// A file of a shard differs from the shard's list.
+    /// A file in a shard differs from its entry in the shard's list.
     #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
     /// A file that should contain a sealed release's secret does not contain one.
@@ -182,7 +182,7 @@ pub enum SnapshotError {
     DuplicatePath(#[from] DuplicatePath),
 }
 
-/// Returns the final name of an unfinished folder for messages, given the folder itself or a path inside it.
+/// Returns the final name of an unfinished folder, for messages. The path may also be inside that folder.
 fn finished(unfinished: &Path) -> String {
     let draft = unfinished.ancestors().find(|folder| folder.extension().is_some_and(|end| end == "partial"));
     draft.map_or_else(|| "DIR".to_owned(), |draft| draft.with_extension("").in_message().to_string())
@@ -194,8 +194,7 @@ impl SnapshotError {
         move |source| SnapshotError::Io { action, path: path.to_path_buf(), source }
     }
 
-    /// Returns the same error with `place` as the manifest's path, because manifests are parsed from bytes
-    /// without a path.
+    /// Returns the same error with `place` as the manifest's path. Manifests are parsed from bytes, without a path.
     pub(crate) fn in_manifest(self, place: &Path) -> SnapshotError {
         let path = place.to_path_buf();
         match self {

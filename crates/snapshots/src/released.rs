@@ -66,8 +66,8 @@ pub struct ReleasedLevel {
 }
 
 impl ReleasedLevel {
-    /// Returns the beginnings that distinguish the published win from the withheld win. They differ, and have
-    /// the same length of at most [`PREFIX`] actions. Returns `None` if either win is missing.
+    /// Returns the beginnings of the published win and the withheld win, which are different. They have the same
+    /// length, at most [`PREFIX`] actions. Returns `None` if either win is missing.
     pub fn beginnings(&self) -> Option<[Vec<Action>; 2]> {
         let (published, withheld) = (&self.witness.as_ref()?.actions, &self.second.as_ref()?.actions);
         let common = PREFIX.min(published.len()).min(withheld.len());
@@ -91,7 +91,7 @@ pub enum ReleasedError {
 }
 
 impl Released {
-    /// Verifies the release at `root`, a folder or an archive, and reads it.
+    /// Verifies the release at `root`, which is a folder or an archive, and reads it.
     ///
     /// Cost: one [`verify()`], plus a second pass over the files.
     ///
@@ -116,14 +116,14 @@ impl Released {
         Ok(Released { manifest, games, marks })
     }
 
-    /// Returns the number of levels of all games.
+    /// Returns the total number of levels in all games.
     pub fn levels(&self) -> usize {
         self.games.iter().map(|game| game.levels.len()).sum()
     }
 }
 
 fn read_game(contents: &Contents, manifest: &Manifest, folder: &str) -> Result<ReleasedGame, ReleasedError> {
-    // All files were well-formed when they were verified, and the digest detects later changes.
+    // All files were well-formed when they were verified, and their digests reveal later changes.
     let read = |path: String| -> Result<Option<String>, ReleasedError> {
         let Some(item) = manifest.item(&path) else { return Ok(None) };
         // A listed file is absent only if it is withheld.

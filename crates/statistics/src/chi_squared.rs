@@ -18,8 +18,8 @@ pub fn chi_squared_p(value: f64, df: u64) -> f64 {
         return 1.0;
     }
     let half = value / 2.0;
-    // The terms of the series are x^k e^(−x) / Γ(k + 1). The series begins at k = 0, or at k = 1/2 for odd
-    // degrees of freedom.
+    // The terms of the series are x^k e^(−x) / Γ(k + 1). The series begins at k = 0 for even degrees of freedom, and
+    // at k = 1/2 for odd ones.
     let is_odd = df % 2 == 1;
     let root = half.sqrt();
     let (mut sum, mut k) = if is_odd { (libm::erfc(root), 0.5) } else { (0.0, 0.0) };

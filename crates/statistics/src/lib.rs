@@ -1,13 +1,13 @@
-//! Statistics for win rates and scores. The crate provides intervals, tests, corrections and summaries, a
-//! [scale] for difficulty and ability, and exact memory tests ([`coin_test`]).
+//! Statistics for win rates and scores. The crate provides intervals, tests, corrections and summaries, a [scale] of
+//! difficulty and ability, and exact memory tests ([`coin_test`]).
 //!
 //! The results are bit-identical on every machine, with the exceptions listed below. The crate depends on no
 //! other workspace crate. It uses only `+ - * /`, square roots and `libm`, in a fixed order. Random numbers
 //! come from ChaCha8, with the caller's seed.
 //!
-//! The exceptions are the p-values from [`student_p`], [`correlation_p`], [`welch()`] and
-//! [`paired_over_games`], and the sample sizes computed by [`Power`] and [`Design`]. These values come from a
-//! library's distributions, whose last digits may differ between machines, and are intended only for reports.
+//! The exceptions are the p-values from [`student_p`], [`correlation_p`], [`welch()`] and [`paired_over_games`], and
+//! the sample sizes computed by [`Power`] and [`Design`]. They are computed with distributions from a library. Their
+//! last digits may differ between machines, so they are intended only for reports.
 //!
 //! ```
 //! use infinite_arcade_statistics::{Summary, Z95, wilson};

@@ -5,16 +5,16 @@ use crate::comparisons::contamination::{Memoriser, coin_test};
 use crate::planning::design::{Spread, logistic};
 use crate::planning::draws::Draws;
 
-/// A simulated player, with the conditions under which it plays.
+/// A simulated player, and the conditions under which it plays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemoryTrial {
     /// The simulated player.
     pub player: Memoriser,
-    /// The decrease in ability caused by new names, in logits. Neither sibling has the names used in the
-    /// games that the player knows.
+    /// The decrease in ability caused by new names, in logits. Neither sibling uses the names from the games that the
+    /// player knows.
     pub hurt: f64,
-    /// The standard deviation, in logits, of the ability decrease between different sets of names for the
-    /// same game.
+    /// The standard deviation, in logits, of the decrease in ability between different sets of names for the same
+    /// game.
     pub names: f64,
     /// The standard deviations of game, level and match effects.
     pub spread: Spread,
@@ -39,8 +39,8 @@ impl MemoryTrial {
     }
 
     /// Returns the power of the sibling test if each coin toss decides for several pairs of episodes. `pairs`
-    /// contains each coin's number of pairs. A coin's pairs are the levels of a game, which share its
-    /// difficulty and its names.
+    /// contains the number of pairs for each coin. The pairs of a coin are the levels of a game, which share the
+    /// game's difficulty and names.
     pub fn sibling_games(&self, pairs: &[u64], alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let ability = self.spread.ability(self.player.clean);
@@ -109,8 +109,8 @@ mod tests {
         assert!(found >= 0.95, "{found}");
     }
 
-    /// Several levels of the same game are less informative than levels from different games. The test's
-    /// error rate stays within its level.
+    /// Several levels of the same game are less informative than levels from different games. The test's error rate
+    /// stays at or below its level.
     #[test]
     fn games_of_several_levels() {
         let known = MemoryTrial { hurt: 0.0, ..trial(0.5) };

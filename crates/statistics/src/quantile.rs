@@ -1,9 +1,8 @@
 //! Quantiles of a sample (R. J. Hyndman and Y. Fan, "Sample quantiles in statistical packages", 1996, definition 7).
 
 /// Returns the quantile of `values` at `share`, where 0.5 is the median. The quantile is the value with rank
-/// `share · (n − 1)` from below, counted from 0, with linear interpolation between neighbours. Returns `None`
-/// if there are no values, if a value is not finite, or if `share` is not within 0..=1. Cost: O(n log n),
-/// plus one copy.
+/// `share · (n − 1)` from below, counted from 0, with linear interpolation between adjacent values. Returns `None` if
+/// there are no values, if a value is not finite, or if `share` is not within 0..=1. Cost: O(n log n), plus one copy.
 ///
 /// ```
 /// use infinite_arcade_statistics::quantile;
@@ -19,7 +18,7 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let below = (rank as usize).min(sorted.len() - 1);
     let above = (below + 1).min(sorted.len() - 1);
     let (low, high) = (sorted[below], sorted[above]);
-    // Rounding can move the interpolated value beyond its neighbours, so it is clamped.
+    // Rounding can move the interpolated value beyond the values on either side, so it is clamped.
     Some((low + (rank - below as f64) * (high - low)).clamp(low, high))
 }
 

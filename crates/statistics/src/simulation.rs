@@ -1,5 +1,5 @@
-//! Simulates evaluations under the model in [`Design`] to measure the coverage of intervals and the error
-//! rates of tests. `cargo xtask simulate` prints full tables, and this crate's tests run small simulations.
+//! Simulations of evaluations under the model in [`Design`], which measure the coverage of intervals and the error
+//! rates of tests. `cargo xtask simulate` prints full tables, and the tests of this crate run small simulations.
 
 use crate::comparisons::stratified::{Stratum, stratified};
 use crate::intervals::clustered::clustered_mean;
@@ -42,7 +42,7 @@ pub enum Episodes {
 /// The number of bootstrap resamples.
 const RESAMPLES: usize = 400;
 
-/// A random stream of evaluations, determined by its seed.
+/// A random sequence of evaluations, determined by its seed.
 pub struct Simulation {
     draws: Draws,
     design: Design,
@@ -110,7 +110,7 @@ impl Simulation {
         Detections { over_games, within_levels }
     }
 
-    /// Simulates an evaluation of two players. Returns the results on each game's levels.
+    /// Simulates an evaluation of two players. Returns the results on the levels of each game.
     fn evaluation(&mut self, abilities: [f64; 2], episodes: Episodes) -> Vec<Vec<Stratum>> {
         let Design { games, levels, runs } = self.design;
         let game = |this: &mut Simulation| {
@@ -151,8 +151,8 @@ mod tests {
         }
     }
 
-    /// The limit is 5% plus two standard errors of 0.7 percentage points. The test within levels makes claims
-    /// only about the levels played.
+    /// The limit is 5% plus two standard errors of 0.7 percentage points. The test within levels makes claims only
+    /// about the levels that were played.
     #[test]
     fn equal_players_are_seldom_told_apart() {
         for (games, episodes) in [(6, Episodes::Independent), (18, Episodes::Copies)] {

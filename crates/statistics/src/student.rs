@@ -6,9 +6,9 @@
 
 use statrs::function::beta::beta_reg;
 
-/// Returns the two-sided p-value for `t`: the probability that a t variable with `df` degrees of freedom is
-/// at least as far from 0 as `t`. Tiny values retain their relative precision. Returns NaN if `t` is NaN, or
-/// if `df` is not positive and finite. Cost: O(1).
+/// Returns the two-sided p-value for `t`, which is the probability that a t variable with `df` degrees of freedom is
+/// at least as far from 0 as `t`. Tiny values keep their relative precision. Returns NaN if `t` is NaN, or if `df` is
+/// not positive and finite. Cost: O(1).
 ///
 /// ```
 /// use infinite_arcade_statistics::student_p;
@@ -21,7 +21,7 @@ pub fn student_p(t: f64, df: f64) -> f64 {
     if t.is_infinite() {
         return 0.0;
     }
-    // The tail is computed directly, because subtracting the rest from 1 would lose all digits.
+    // The tail is computed directly, because subtracting the complement from 1 would lose all digits.
     beta_reg(df / 2.0, 0.5, df / (df + t * t)).clamp(0.0, 1.0)
 }
 
@@ -49,7 +49,7 @@ pub fn student_quantile(p: f64, df: f64) -> f64 {
     while tail(high) > p && high < f64::MAX / 4.0 {
         high *= 2.0;
     }
-    // The bisection ends when the midpoint equals one of the ends.
+    // The bisection ends when the midpoint equals one of the bounds.
     let mut low = 0.0;
     loop {
         let middle = (low + high) / 2.0;

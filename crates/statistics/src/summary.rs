@@ -1,4 +1,4 @@
-//! Summarises a sample of scores in five numbers.
+//! A summary of a sample of scores in five numbers.
 
 /// A summary of a sample, with its count, mean, extremes and median.
 ///
@@ -19,8 +19,8 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Returns the summary of `values`. Returns `None` if there are no values, or if a value is not finite,
-    /// because then no summary would be correct.
+    /// Returns the summary of `values`. Returns `None` if there are no values, or if a value is not finite, because
+    /// no summary would be correct in these cases.
     ///
     /// The mean is the sum divided by the count. The values are added one by one from the smallest to the
     /// largest (`f64::total_cmp`). Values are expected to be small enough for a finite sum. If the sum is
@@ -70,7 +70,7 @@ mod tests {
         }
     }
 
-    /// If the values were summed in the given order, the mean would depend on that order.
+    /// If the values were summed in the order in which they are given, the mean would depend on that order.
     #[test]
     fn order_does_not_matter() {
         let values = [1e16, 1.0, -1e16, 1.0, 0.1, 0.7];
@@ -82,8 +82,8 @@ mod tests {
             turned.reverse();
             assert_eq!(Summary::of(&turned), Some(expect));
         }
-        // When summing from the smallest value up, -1e16 absorbs the small values one by one. In the given
-        // order, the sum would be 1.8.
+        // When summing from the smallest value up, -1e16 absorbs the small values one by one. Summed in the given
+        // order, the result would be 1.8.
         assert_eq!(expect.mean, 0.0);
     }
 

@@ -59,7 +59,7 @@ impl Serving {
         let Ok(place) = threads.acquire_owned().await else { return broken() };
         let studio = self.studio;
         let done = tokio::task::spawn_blocking(move || {
-            // The JSON is written here too, because that may be as much work as the rest.
+            // The JSON is also written on this thread, because that may take as much work as the rest.
             let answer = work(&studio).map(|answer| serde_json::to_vec(&answer));
             drop(place);
             answer
@@ -153,7 +153,7 @@ impl Asker {
     }
 }
 
-/// A waiting client. The server drops this value when the connection closes, and dropping it sets the flag.
+/// A waiting client. The server drops this value when the connection closes, which sets the flag.
 struct Waiting(Arc<AtomicBool>);
 
 impl Drop for Waiting {
@@ -179,8 +179,8 @@ pub(crate) fn awaited<I: DeserializeOwned + Send + 'static, O: Serialize + 'stat
     post(answer)
 }
 
-/// A request whose response is sent line by line. `page` identifies the page that sent the request, if the
-/// page states it.
+/// A request whose response is sent line by line. `page` identifies the page that sent the request, if the request
+/// states it.
 pub(crate) struct Asked<I> {
     pub(crate) body: I,
     pub(crate) page: Option<String>,

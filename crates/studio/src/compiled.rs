@@ -1,4 +1,4 @@
-//! A cache of compiled games by their text, because a page sends the same text many times.
+//! A cache of compiled games, indexed by their text, because a page sends the same text many times.
 
 use engine::{Analysis, Diagnostics, Game, Level};
 use render::Looks;

@@ -21,8 +21,8 @@ const MAX_LEVELS: usize = 1000;
 /// The maximum total size of a game's levels, in bytes.
 const MAX_ALL_LEVELS: usize = 4 << 20;
 
-/// Returns the number of the level that has this name on pages. For example, `lvl3.txt` is level 3. Each
-/// number has exactly one such name, regardless of the level's file name.
+/// Returns the number of the level with the given name on pages. For example, `lvl3.txt` is level 3. Each number has
+/// exactly one such name, whatever the level's file is called.
 pub(crate) fn level_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("lvl")?.strip_suffix(".txt")?;
     let number: usize = digits.parse().ok()?;

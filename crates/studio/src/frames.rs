@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::ser::{SerializeTuple, Serializer};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
-/// The cell size for drawing frames, in pixels. It affects only how thin lines are.
+/// The cell size for drawing frames, in pixels. It affects only the thickness of thin lines.
 const CELL: u32 = 32;
 
 /// A tile in the page's format.
@@ -72,7 +72,8 @@ impl Serialize for Mark {
     }
 }
 
-/// A change to a list of marks: the index of the change, the number of marks to remove there, and the marks to insert.
+/// A change to a list of marks: the index of the change, the number of marks to remove there, and the marks to
+/// insert.
 type Splice = (usize, usize, Vec<Mark>);
 
 /// A state's board, and the texts beside it.
@@ -132,7 +133,7 @@ impl Frame {
 const PLAIN: usize = 200_000;
 /// The maximum number of marks in a list of frames.
 const MOST: usize = 1_000_000;
-/// The maximum length of two lists of marks for which a minimal difference is computed. The cost grows with
+/// The maximum length of either of two lists of marks for which a minimal difference is computed. The cost grows with
 /// the product of the lengths.
 const COMPARED: usize = 4_000;
 

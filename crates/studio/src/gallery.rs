@@ -1,5 +1,5 @@
-//! A release as a folder of static files, which show the same page without the studio's server, from a disk
-//! or from any web server.
+//! A release as a folder of static files. The files show the same page without the studio's server, from a disk or
+//! any web server.
 //!
 //! The data files are scripts, because a page opened from `file://` can load only scripts. The release's
 //! content cannot become code in these scripts, as [`script`] explains.
@@ -130,8 +130,8 @@ fn witnesses(
     Ok(shown)
 }
 
-/// Returns a script that passes data to the page. Characters that could end the script, or a string in it,
-/// are escaped, so that data cannot become code.
+/// Returns a script that passes data to the page. Characters that could end the script or a string in it are escaped,
+/// so that data cannot become code.
 fn script(name: &str, data: &Value) -> String {
     let plain = |value: &Value| {
         let mut text = String::new();

@@ -1,5 +1,5 @@
-//! Checks made before every response. Only the page served by this server and opened with its token may send
-//! requests.
+//! Checks that precede every response. Requests are accepted only from the page that this server has served and that
+//! was opened with the server's token.
 //!
 //! A page from any website can make a browser send requests to 127.0.0.1, and any program on this machine can
 //! send them, too. Requests from foreign pages are recognised by the requested host name (which DNS rebinding

@@ -36,16 +36,16 @@ impl Entry {
     }
 }
 
-/// A running verdict, which ends when this value is dropped.
+/// The registration of a running verdict, which ends when this value is dropped.
 pub(crate) struct Place<'a> {
     running: &'a Running,
     switch: Arc<AtomicBool>,
 }
 
 impl Running {
-    /// Begins a verdict. It supersedes the previous verdict of the same page and kind and, if there are too
-    /// many, the oldest verdicts of that kind. A verdict on a level also supersedes the same page's verdict
-    /// on the whole game, which has changed or can wait.
+    /// Begins a verdict. It supersedes the previous verdict of the same page and kind. If there are then too many
+    /// verdicts of that kind, it also supersedes the oldest ones. A verdict on a level supersedes the same page's
+    /// verdict on the whole game, too, because the game has changed or its verdict can wait.
     pub(crate) fn begin(&self, work: Work, page: Option<String>, lines: &Lines) -> Place<'_> {
         let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let switch = lines.switch();

@@ -29,7 +29,7 @@ pub(crate) struct Session {
     /// The state after the first `at` actions.
     state: State,
     at: usize,
-    /// The number of ticks between two stored states, which doubles when there are too many states.
+    /// The number of ticks between two stored states. It doubles when there are too many states.
     stride: usize,
     /// The states after 0, `stride`, 2 × `stride`, … ticks.
     kept: Vec<State>,
@@ -37,7 +37,7 @@ pub(crate) struct Session {
     planner: Option<(String, Player)>,
 }
 
-/// The response to a session request: the new tiles, the board, and the action that led to it.
+/// The response to a session request: the new tiles, the board, and the action that led to the board.
 pub(crate) struct Shown {
     pub(crate) tiles: Vec<TileSvg>,
     pub(crate) frame: Frame,
@@ -59,8 +59,7 @@ impl Session {
         Ok(Shown { tiles: self.tiles.fresh(), frame, action: action.map(action_name) })
     }
 
-    /// Plays a tick, dropping the ticks previously played after this point. Has no effect if the game is
-    /// over.
+    /// Plays a tick. Drops the ticks that were previously played after this point. Has no effect if the game is over.
     pub(crate) fn act(&mut self, action: Action) {
         if self.state.is_over() {
             return;

@@ -54,8 +54,8 @@ impl Studio {
     }
 }
 
-/// A check of a verified release's root, for example by its signatures. Returns a sentence about the
-/// evidence, or the problems found.
+/// A check of a verified release's root, for example against its signatures. Returns a sentence about the evidence,
+/// or the problems found.
 type Vouch = Box<dyn Fn(&Verification) -> Result<String, Vec<String>> + Send + Sync>;
 
 impl Studio {

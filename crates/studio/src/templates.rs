@@ -1,4 +1,4 @@
-//! Templates for new games, one per genre for a few genres. Each has a commented game and two levels.
+//! Templates for new games in a few genres, one per genre. Each template has a commented game and two levels.
 
 use crate::files;
 use std::fs;

@@ -15,8 +15,8 @@ use validators::{
     PlayerResult, Verdict,
 };
 
-/// The numbers of forward-model calls of the successive searches for a win. The first search decides most
-/// levels immediately.
+/// The numbers of forward-model calls in the successive searches for a win. The first search decides most levels at
+/// once.
 const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
 /// The maximum number of calls that a request can specify.
 const MOST_CALLS: u64 = 50_000_000;
@@ -63,8 +63,8 @@ impl Subject<'_> {
                 }
                 Solution::Unknown => {
                     lines.check()?;
-                    // Nothing has been proved, but a win in a game that differs in only one line shows where
-                    // to look.
+                    // Nothing has been proved. However, if a game that differs in only one line can be won, that line
+                    // shows where to look.
                     let judged = self.why_not(CRITERIA)?;
                     if !judged.finding.evidence.is_empty() {
                         lines.send(&criterion(&judged, source))?;
@@ -73,8 +73,8 @@ impl Subject<'_> {
             },
         }
         let is_open = impossible.is_none() && witness.is_some();
-        // Either it is already known whether the level can be won, or the search took more calls than are
-        // available here.
+        // Either it is already known whether the level can be won, or finding out takes more calls than are available
+        // here.
         let answered = CriterionSet::of(&[Criterion::Winnable]);
         let of_wins = CriterionSet::of(&[Criterion::Length, Criterion::Skill]);
         let skipped = if is_open { answered } else { answered.with(of_wins) };
@@ -120,7 +120,7 @@ impl Subject<'_> {
         Ok(solution)
     }
 
-    /// Returns the judgement on a level that cannot be won, with the chain of causes.
+    /// Returns the judgement on a level that cannot be won, with the chain of reasons.
     fn why_not(&self, budget: u64) -> Result<Judgement, Refusal> {
         let ask = CriterionSet::of(&[Criterion::Winnable]);
         let criteria = Criteria { ask, budget, ..Criteria::full() }.check().map_err(Refusal::failed)?;
@@ -130,8 +130,8 @@ impl Subject<'_> {
     }
 }
 
-/// Searches for a win with increasing numbers of calls, up to `most` per search, until `gone` returns `true`.
-/// After each search without an answer, `tell` receives the number of calls spent, and can stop the work by
+/// Searches for a win with increasing numbers of calls, up to `most` per search, until `gone` returns `true`. After
+/// each search without an answer, `tell` receives the number of calls spent so far, and can stop the work by
 /// returning `false`. Returns the answer and the number of calls spent.
 pub(crate) fn look_for_win(
     analysis: &Analysis,

@@ -1,9 +1,8 @@
 //! Key sets. A set determines who may sign for a publisher, how many keys must sign, and which keys are
 //! revoked.
 //!
-//! A set is stored in a file `keys-N.json` of canonical JSON. Each set contains the digest of the previous
-//! set, and must be signed by sufficiently many keys from both sets. A reader who trusts one set can
-//! therefore verify all later sets.
+//! A set is stored in a file `keys-N.json` of canonical JSON. Each set contains the digest of the previous set, and
+//! must be signed by enough keys from both sets. A reader who trusts one set can therefore verify all later sets.
 
 use crate::error::TrustError;
 use crate::key::PublicKey;

@@ -21,7 +21,7 @@ const MAX_DOCUMENT: u64 = 1 << 16;
 /// The file name suffix of signature files.
 const SIGNATURE_END: &str = ".minisig";
 
-/// A root of trust, which a user must obtain from elsewhere than the signed documents.
+/// A root of trust, which the user must obtain from a source other than the signed documents.
 #[derive(Clone, Debug)]
 pub enum Anchor {
     /// A single key, which must sign every release.
@@ -74,7 +74,7 @@ pub struct Signed {
     /// The digest of `Cargo.lock`, as stated in the signed statement. No root covers `Cargo.lock`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lockfile: Option<Digest>,
-    /// The reasons why the root is not signed as required, or an empty list.
+    /// The reasons why the root is not signed as required; empty if it is.
     pub problems: Vec<String>,
 }
 
@@ -246,7 +246,7 @@ impl Signatures {
         most.map(|(_, statement)| Ok(Digest::of(&statement.to_bytes()?))).transpose()
     }
 
-    /// Checks a single statement in the folder, in the way that [`Signatures::judge`] does.
+    /// Checks a single statement in the folder, like [`Signatures::judge`].
     pub fn judge_file(&self, file: &str, anchor: &Anchor) -> Signed {
         match self.statements.get(file) {
             Some(Ok(statement)) => self.judge_statement(file, statement, anchor),

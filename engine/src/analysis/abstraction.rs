@@ -55,15 +55,15 @@ impl StateAbstraction {
         self.constant[stype.index()]
     }
 
-    /// Returns `true` if randomness can have an effect after the root state, so that keys include the random
-    /// state.
+    /// Returns `true` if randomness can have an effect after the root state, in which case keys include the
+    /// random state.
     pub fn reads_chance(&self) -> bool {
         self.chance
     }
 
-    /// Returns the key for a successor of the root state. If two successors have equal keys, they have equal
-    /// keys and outcomes after the same actions (except for losses by Timeout, if
-    /// [`StateAbstraction::earlier_is_better`]). Cost: O(sprites of types that can change).
+    /// Returns the key for a successor of the root state. Two successors with equal keys also have equal keys
+    /// and outcomes after the same actions, except for losses by Timeout if
+    /// [`StateAbstraction::earlier_is_better`] returns `true`. Cost: O(sprites of types that can change).
     pub fn key(&self, analysis: &Analysis, state: &State) -> SearchKey {
         state.key_left_out(&analysis.game.0, self)
     }
@@ -136,7 +136,7 @@ impl Analysis {
         constant
     }
 
-    /// Returns `true` if sprites of the type never act by themselves.
+    /// Returns `true` if sprites of the type never act on their own.
     fn is_inert(&self, stype: SpriteType, futures: &PossibleFutures<'_>) -> bool {
         use SpriteClass as C;
         let (facts, info) = (self.facts(stype), &self.game.0.types[stype.index()]);

@@ -1,4 +1,4 @@
-//! Proofs that randomness has no effect: no draw with an uncertain outcome can ever occur.
+//! Proofs that randomness has no effect, because no draw with an uncertain outcome can ever occur.
 //!
 //! A draw with a certain outcome only advances the generator. Examples are the draws of a SpawnPoint with
 //! `prob=1` and of a Spreader with `spreadprob=1`. PathChasers and PathAltChasers draw only while they have
@@ -33,8 +33,8 @@ impl Analysis {
         !self.is_stochastic
     }
 
-    /// Returns `true` only if randomness provably has no effect in a level. Cost: starting the level, and one
-    /// call of [`Analysis::is_deterministic_from`].
+    /// Returns `true` only if randomness provably has no effect in a level. Cost: starting the level, plus
+    /// one call to [`Analysis::is_deterministic_from`].
     pub fn is_deterministic_in(&self, level: &Level) -> bool {
         // Starting a level draws no random numbers.
         self.is_deterministic() || self.is_deterministic_from(&self.game.start(level, Seed::from_text("any")))
@@ -83,12 +83,13 @@ impl<'a> Outlook<'a> {
         &self.rules.types[stype.index()]
     }
 
-    /// Returns the types to which rules on a type apply. The result is empty for an undeclared type.
+    /// Returns the types to which rules written for the given type apply. The result is empty for an
+    /// undeclared type.
     fn tree(&self, stype: SpriteType) -> &'a [SpriteType] {
         self.rules.types.get(stype.index()).map_or(&[], |info| &info.tree)
     }
 
-    /// Returns the effects that can run, with the types of their two sides as written.
+    /// Returns the effects that can run, each with the types of its two sides as written in the rules.
     fn effects(self) -> impl Iterator<Item = (Option<SpriteType>, Option<SpriteType>, &'a Summary)> {
         let summary = move |effect: u16| &*self.rules.effects[usize::from(effect)].summary;
         let met = self.futures.encounters().iter().zip(&self.futures.live).filter(|(_, live)| **live);
@@ -97,8 +98,8 @@ impl<'a> Outlook<'a> {
         met.chain(timed.map(move |(timed, _)| (timed.target, None, summary(timed.effect))))
     }
 
-    /// Returns `true` if the type's sprites make draws with an uncertain outcome in their own updates, even
-    /// while a sprite of each of the `targets` exists. Adds the type's own target to `targets`.
+    /// Returns `true` if updating the type's sprites involves draws with an uncertain outcome, even while
+    /// every type in `targets` has a sprite. Adds the type's own target to `targets`.
     fn update_draws(&self, stype: SpriteType, targets: &mut BTreeSet<SpriteType>) -> bool {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -134,8 +135,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if a sprite can have the orientation with which a RandomMissile draws a new
-    /// orientation. Sprites may pass this orientation on to other sprites.
+    /// Returns `true` if a sprite can have the orientation that makes a RandomMissile draw a new one. Sprites
+    /// may pass this orientation on to other sprites.
     fn can_be_unoriented(&self) -> bool {
         let types = self.rules.types.iter().enumerate();
         let mut unset = types.filter(|(_, info)| info.traits.orientation == Direction::NIL);
@@ -165,8 +166,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns the exit types for sprites of a type. A spawner leads to the types that it creates. Rules may
-    /// change the types that a spawner creates.
+    /// Returns the types to which a portal of the given type leads. A spawner leads to the types that it
+    /// creates, which rules may change.
     fn exits(&self, portal: SpriteType) -> Vec<SpriteType> {
         let info = self.info(portal);
         let mut exits: Vec<SpriteType> = info.leads_to().into_iter().collect();
@@ -192,9 +193,9 @@ impl<'a> Outlook<'a> {
     }
 
     /// Returns `true` only if a sprite of the type or of its relatives exists whenever sprites are updated.
-    /// Such a sprite must exist now. Its type's sprites must either stay, or end the game when the last of
-    /// them is removed. This suffices because sprites are removed only after a tick's updates, just before
-    /// terminations are checked.
+    /// Such a sprite must exist now. Either the sprites of its type are never removed, or removing the last
+    /// of them ends the game. This suffices because sprites are removed only after a tick's updates, just
+    /// before terminations are checked.
     fn is_always_there(&self, stype: SpriteType) -> bool {
         let family = self.tree(stype);
         let lasting = self.lasting(family);
@@ -202,8 +203,8 @@ impl<'a> Outlook<'a> {
             || self.ends_without(family) && self.is_there_now(&|one| family.contains(&one))
     }
 
-    /// Returns `true` only if a sprite of a type that `fits` accepts exists now or, without a state, at the
-    /// start of any level.
+    /// Returns `true` only if `fits` accepts the type of some sprite that exists now or, without a state, at
+    /// the start of every level.
     fn is_there_now(&self, fits: &dyn Fn(SpriteType) -> bool) -> bool {
         let mut types = (0u16..).map(SpriteType).take(self.rules.types.len());
         match self.state {
@@ -251,7 +252,7 @@ impl<'a> Outlook<'a> {
         vec![false; lasting.len()]
     }
 
-    /// Removes the types whose sprites the effect removes from `lasting`.
+    /// Removes from `lasting` the types whose sprites the effect removes.
     fn end(
         &self,
         first: Option<SpriteType>,

@@ -7,7 +7,7 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 
-/// An over-approximation of the sprites, resources and interactions that are possible from some start. It
+/// An over-approximation of the sprites, resources and interactions that are possible from a given start. It
 /// assumes that any two possible types can collide.
 #[derive(Clone, Debug)]
 pub(super) struct PossibleFutures<'a> {
@@ -28,16 +28,16 @@ pub(super) struct PossibleFutures<'a> {
     /// For each type, whether sprites of the type or of a related type can exist, so that rules on the type
     /// can apply.
     applicable: Vec<bool>,
-    /// For each type, whether sprites can hold more of it as a resource than its limit.
+    /// For each type, whether sprites can hold it as a resource beyond its limit.
     unlimited: Vec<bool>,
 }
 
 /// The starting point of the possible futures.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Start {
-    /// The types with existing sprites.
+    /// The types that have sprites at the start.
     pub(super) existing: Vec<SpriteType>,
-    /// The types that existing sprites create beyond those that follow from the sprites' own types.
+    /// The types that existing sprites create in addition to those implied by their own types.
     pub(super) making: Vec<SpriteType>,
     /// The scheduled timed effects.
     pub(super) scheduled: Vec<u16>,
@@ -209,8 +209,8 @@ impl<'a> PossibleFutures<'a> {
         }
     }
 
-    /// Returns `true` if a maker can create sprites of its `kind`-th type. Avatars need ammunition for their
-    /// shots.
+    /// Returns `true` if `maker` can create sprites of the type at index `kind` in its list of types. Avatars
+    /// need ammunition for their shots.
     pub(super) fn can_make(&self, maker: usize, kind: usize) -> bool {
         let info = &self.rules.types[maker];
         let Some(held) = &self.held else { return true };
@@ -220,13 +220,14 @@ impl<'a> PossibleFutures<'a> {
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
     }
 
-    /// Returns `true` if sprites of a type leave behind sprites of type 0, regardless of their parameters.
-    /// All sprites of such a type except the first do so.
+    /// Returns `true` if sprites of a type leave sprites of type 0 (`wall`) behind, regardless of their
+    /// parameters. All sprites of such a type except the first do so.
     fn leaves_walls(&self, stype: usize) -> bool {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
 
-    /// Returns the resource that an avatar needs to create sprites of its `kind`-th type.
+    /// Returns the resource that an avatar needs to create sprites of the type at index `kind` in its list of
+    /// types.
     fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
         let traits = &self.rules.types[maker].traits;
         // The type facts omit undeclared types, so if there is one, the lists of created types and of
@@ -235,7 +236,7 @@ impl<'a> PossibleFutures<'a> {
         traits.ammo.get(kind).copied().filter(|&ammo| matched && ammo != SpriteType::NONE)
     }
 
-    /// Returns the types that a type can create by itself, each with the required ammunition.
+    /// Returns the types that sprites of a type can create on their own, each with the required ammunition.
     pub(super) fn makes(&self, maker: usize) -> Vec<(SpriteType, Option<SpriteType>)> {
         let avatar = self.rules.types[maker].class.is_some_and(|class| class.is_avatar());
         let made = self.facts[maker].makes.iter().enumerate();
@@ -255,8 +256,8 @@ impl<'a> PossibleFutures<'a> {
     }
 }
 
-/// Returns, for each type, whether some rule, or its use as ammunition, can give the type as a resource
-/// regardless of its limit.
+/// Returns, for each type, whether sprites can obtain it as a resource beyond its limit, either through a
+/// rule or by shooting with it as ammunition.
 pub(super) fn unlimited(rules: &Rules) -> Vec<bool> {
     let mut unlimited = vec![false; rules.types.len()];
     let mut mark =

@@ -73,9 +73,9 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Analyses a game. Cost: O(types × types + interactions × relatives) with a factor of
-    /// [`MAX_RULES_PER_PAIR`]. It takes well below a millisecond for typical games, and some tenths of a
-    /// second for the largest games that compile.
+    /// Analyses a game. Cost: O(types × types + interactions × relatives), times at most
+    /// [`MAX_RULES_PER_PAIR`]. Typical games take well under a millisecond, and the largest games that
+    /// compile take a few tenths of a second.
     pub fn of(game: &Game) -> Analysis {
         let rules = &*game.0;
         let encounters = interactions::encounter::encounters(rules);
@@ -192,7 +192,7 @@ impl Analysis {
             .filter(move |encounter| encounter.second.is_none() && self.applies(encounter.first, stype))
     }
 
-    /// Returns a type's properties that do not depend on other types.
+    /// Returns the properties of a type that do not depend on other types.
     pub fn facts(&self, stype: SpriteType) -> &Facts {
         &self.facts[stype.index()]
     }
@@ -202,7 +202,7 @@ impl Analysis {
         self.roles[stype.index()]
     }
 
-    /// Returns the possible types with a role, in registry order.
+    /// Returns the possible types that have the given role, in registry order.
     pub fn of_role(&self, role: Role) -> impl Iterator<Item = SpriteType> + '_ {
         self.game.sprite_types().filter(move |&stype| self.role(stype) == role && self.facts(stype).possible)
     }
@@ -308,8 +308,8 @@ impl Analysis {
             || timed.iter().any(|(_, effects)| effects.iter().any(&wanted))
     }
 
-    /// Returns `true` if some rule, or its use as ammunition, gives a resource regardless of its limit. Cost:
-    /// O(interactions).
+    /// Returns `true` if sprites can obtain a resource beyond its limit, either through a rule or by shooting
+    /// with it as ammunition. Cost: O(interactions).
     pub fn can_exceed_limit(&self, resource: SpriteType) -> bool {
         futures::unlimited(&self.game.0)[resource.index()]
     }
@@ -329,8 +329,8 @@ impl Analysis {
         !self.game.0.timed.is_empty()
     }
 
-    /// Returns `true` if the arrow keys move sprites of an avatar type from cell to cell: in four directions
-    /// or along a line, with grid physics, one whole cell per step.
+    /// Returns `true` if the arrow keys move sprites of an avatar type from cell to cell, either in four
+    /// directions or along a line. The type must have grid physics and move by one whole cell per step.
     pub fn moves_by_whole_cells(&self, avatar: SpriteType) -> bool {
         let traits = &self.game.0.types[avatar.index()].traits;
         let avatar = self.avatars.iter().find(|known| known.stype == avatar);
@@ -364,7 +364,7 @@ impl Analysis {
     }
 
     /// Returns `true` if sprites may change after the first tick although no sprite moves, because they
-    /// overlap when a level starts or extend into the next cell.
+    /// overlap when a level starts or extend into a neighbouring cell.
     fn changes_at_rest(&self) -> bool {
         let on = |written: SpriteType, stype: SpriteType| self.applies(written, stype);
         let lie_together = |encounter: &Encounter, stack: &[SpriteType]| {
@@ -380,7 +380,7 @@ impl Analysis {
                 on(written, stype) && self.facts(stype).possible && traits.span() != (1, 1)
             })
         };
-        // The interaction makes or moves something again and again, or happens later than in the first tick.
+        // The interaction creates or moves something repeatedly, or happens after the first tick.
         let repeats = |encounter: &Encounter| {
             let summary = &self.game.0.effects[usize::from(encounter.effect)].summary;
             let again = |effect: &EffectSummary| {
@@ -399,7 +399,7 @@ impl Analysis {
             let is_near = is_large(encounter.first) || encounter.second.is_some_and(is_large);
             is_near && (repeats(encounter) || !becomes(encounter).is_empty())
         };
-        // Sprites that result from the first tick take part in further rules.
+        // Sprites created in the first tick take part in further rules.
         let within = |stack: &[SpriteType]| {
             let first = || self.encounters.iter().filter(|encounter| lie_together(encounter, stack));
             let next = [stack.to_vec(), first().flat_map(becomes).collect()].concat();

@@ -130,8 +130,8 @@ fn is_by_itself(info: &TypeInfo) -> bool {
         && !info.repeats()
 }
 
-/// Returns `true` if a rule between other types processes sprites of this type one after the other, so that
-/// their order can matter.
+/// Returns `true` if a rule between other types processes sprites of this type one by one, so that their
+/// order can matter.
 fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
     let treats_all_alike = |effect: &EffectSummary| {
@@ -151,8 +151,8 @@ fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }
 
-/// Returns `true` if an effect has a certain property in an interaction. `property` is the condition for the
-/// property.
+/// Returns `true` if an effect has a property in an interaction. `property` is the condition under which
+/// effects have that property.
 fn holds(property: Provided, rules: &Rules, encounter: &Encounter, info: &EffectInfo) -> bool {
     let provided = match property {
         Provided::Never => false,

@@ -65,13 +65,13 @@ base::named_enum! {
 }
 
 base::named_enum! {
-    /// A game's genre. If several genres fit, they are listed in this order, but shooting that does not win
-    /// comes last if something other than waiting wins.
+    /// A game's genre. If several genres fit, they are listed in this order. However, shooting that does not
+    /// lead to a win comes last if something other than waiting does.
     pub enum Genre {
         /// The avatar falls, walks and jumps.
         Platformer = "platformer",
-        /// The player and other sprites compete for the same goal: reaching it wins or loses, depending on who comes
-        /// first.
+        /// The player and other sprites compete for the same goal: the game is won or lost depending on who
+        /// reaches it first.
         Race = "race",
         /// Pushing sprites to certain cells wins or opens a path. Alternatively, the game is on a grid with
         /// an avatar that can stop, winning requires more than waiting, and there are neither random effects
@@ -83,22 +83,22 @@ base::named_enum! {
         /// The avatar's shots remove moving sprites that must be removed for a win. Alternatively, the shots
         /// move and remove hostile sprites.
         Shooter = "shooter",
-        /// The avatar must catch sprites that move by themselves.
+        /// The avatar must catch sprites that move on their own.
         Hunt = "hunt",
         /// The avatar must collect motionless sprites: all sprites of a type, or many of a resource that an
         /// exit requires.
         Collect = "collect",
-        /// A lock must be opened, for which a key must be found.
+        /// The player must find a key to open a lock.
         Adventure = "adventure",
-        /// Touching an exit wins: a door, something that is dangerous to touch, or the only type that must be
-        /// touched while other types merely give points.
+        /// Touching an exit wins. The exit is a door, something dangerous to touch, or the only type that
+        /// must be touched while other types merely give points.
         Escape = "escape",
         /// The player must bring other sprites together with something: their actions achieve the win, not
         /// the player's touch, shots or pushes.
         Guide = "guide",
         /// Something other than the avatar must be protected.
         Defence = "defence",
-        /// Surviving up to some tick wins.
+        /// Surviving until a certain tick wins.
         Survive = "survive",
     }
 }
@@ -234,9 +234,9 @@ impl Analysis {
         })
     }
 
-    /// Returns `true` if the game depends on who reaches something first. In such a game, a type that moves
-    /// by itself loses the game by touching the type that the avatar must touch to win. Alternatively, the
-    /// moving type's touch can cause either result.
+    /// Returns `true` if the outcome depends on who reaches something first. In such a game, a type that
+    /// moves by itself loses the game by touching the type that the avatar must touch to win. Alternatively,
+    /// the moving type's touch can cause either result.
     fn is_race(&self) -> bool {
         let (wins, losses) = (&self.aims.create, &self.aims.prevent);
         let runs = |stype: &SpriteType| {

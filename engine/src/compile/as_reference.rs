@@ -82,14 +82,14 @@ pub(crate) fn compile_as_reference(description: &Description) -> Result<Rules, D
 
 /// The result of reading a line in reference mode.
 struct Usable {
-    /// The line with only the partners before the first rejected one, or `None` if no partner is left.
+    /// The line, reduced to the partners before the first rejected one, or `None` if no partner remains.
     line: Option<InteractionLine>,
     /// The number of messages about parameters that the reference logs.
     messages: u32,
     /// `true` if the reference stops reading at this line.
     aborts: bool,
-    /// `true` if the line is about an undeclared sprite at the edge, on which the reference crashes in the
-    /// first tick (`spec/03` §2).
+    /// `true` if the line is about an undeclared sprite at the edge, which crashes the reference in the first
+    /// tick (`spec/03` §2).
     dies_at_edge: bool,
 }
 

@@ -95,11 +95,12 @@ pub struct TerminationClause {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clauses {
     /// The parameters of the whole game. The cell size in pixels is included only for games with continuous
-    /// physics, because it measures distances in pixels.
+    /// physics, which measures distances in pixels.
     pub header: Terms,
     /// The sprite types' clauses, by type.
     pub types: Vec<TypeClause>,
-    /// The sprites that each mapped level character places, without built-in mappings that the game does not declare.
+    /// The sprites that each mapped level character places, excluding built-in mappings that the game does
+    /// not declare.
     pub mapping: Vec<(char, Vec<SpriteType>)>,
     /// The enabled interactions, in file order.
     pub interactions: Vec<InteractionClause>,
@@ -304,7 +305,7 @@ fn terminations(rules: &Rules) -> Vec<TerminationClause> {
     rules.terminations.iter().map(clause).collect()
 }
 
-/// Rereads a compiled line, and records the parameters that differ from their defaults.
+/// Rereads a compiled line and records the parameters that differ from their defaults.
 struct Written<'a> {
     line: &'a InteractionLine,
     names: Names<'a>,

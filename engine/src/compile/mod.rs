@@ -35,7 +35,7 @@ use smallvec::SmallVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
-/// The way in which faults are handled.
+/// The policy for handling faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Policy {
     /// Strict mode: faults are errors.
@@ -48,7 +48,7 @@ enum Policy {
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     policy: Policy,
-    /// The game's number of counters.
+    /// The number of counters in the game.
     counters: usize,
 }
 
@@ -118,8 +118,8 @@ fn compile_with(
     let factors = types.iter().flat_map(|info| [info.traits.width_factor, info.traits.height_factor]);
     let classes = || types.iter().filter_map(|info| info.class);
     let referenced = referenced(description, &types);
-    // To read a resource's limit, the reference creates a sprite of it, and also logs messages about its
-    // parameters then.
+    // To read a resource's limit, the reference creates a sprite of the resource, which also logs the
+    // messages about its parameters.
     let resources = types.iter().filter(|info| info.class == Some(SpriteClass::Resource));
     let messages = fate.messages + resources.map(|info| info.unknown_parameters).sum::<u32>();
     let of_class = |is: &'static dyn Fn(SpriteClass) -> bool| {
@@ -426,7 +426,7 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the sprite type that a parameter's value, or one entry in it, names.
+    /// Returns the sprite type named by a parameter's value or by one entry in that value.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {
@@ -461,7 +461,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Returns up to [`SUBTYPES_SHOWN`] leaf types below a type that have a class.
+    /// Returns up to [`SUBTYPES_SHOWN`] of a type's leaf subtypes that have a class.
     fn subtypes(self, stype: SpriteType) -> Vec<&'a str> {
         let leaves = self.types.iter().filter(|info| info.leaf && info.class.is_some());
         let below = leaves.filter(|info| info.path.contains(&stype));

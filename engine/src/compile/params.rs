@@ -21,7 +21,8 @@ pub(super) enum Value<'a> {
     Unusable,
 }
 
-/// Converts a value in the reference's order: constant, integer, double, boolean, text.
+/// Converts a value to the first type that fits, in the reference's order: constant, integer, double,
+/// boolean, text.
 pub(super) fn convert<'a>(key: &str, text: &'a str) -> Value<'a> {
     match constant(text) {
         Some(Constant::Direction(direction)) => return Value::Direction(direction),

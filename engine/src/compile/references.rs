@@ -1,5 +1,5 @@
-//! The sprite types that a type's parameters refer to: the types that it creates, follows, spends, is
-//! collected as or leads to.
+//! The sprite types that a type's parameters refer to: the types that its sprites create, follow, spend, are
+//! collected as or lead to.
 
 use super::Names;
 use super::params::{Expected, Value, convert, missing_name, wrong_type};

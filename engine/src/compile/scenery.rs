@@ -12,7 +12,7 @@ const BY_NUMBER: &str = "itype";
 
 /// Returns, for each type, `true` if anything other than its own line, its parents' lines and the
 /// LevelMapping refers to the type. If in doubt, the result is `true`: a value that merely has the same
-/// spelling counts, too. Cost: O(words in the game × log).
+/// spelling counts, too. Cost: O(n log n), where n is the number of words in the game.
 pub(crate) fn referenced(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     let interactions = &description.interactions;
     let sides = interactions.iter().flat_map(|line| line.second.iter().chain([&line.first]));
@@ -46,8 +46,8 @@ fn valued(description: &Description, types: &[TypeInfo]) -> Vec<bool> {
     types.iter().map(|info| info.tree.iter().any(speaks_of)).collect()
 }
 
-/// Returns `true` if neither their own updates nor the engine itself change a type's sprites after a level
-/// has placed them.
+/// Returns `true` if, once a level has placed a type's sprites, neither their own updates nor the engine
+/// itself change them.
 fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     let info = &types[stype.index()];
     // The first sprite of a type differs from later ones only if it is larger or smaller than a cell.

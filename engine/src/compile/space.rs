@@ -24,7 +24,7 @@ pub(super) fn settled<'a>(
     let mut space = Space::default();
     for line in &description.parameters {
         let values = space.read(line, policy, problems);
-        // If several lines have this name, the last one counts.
+        // If several lines define this name, the last one counts.
         space.parameters.retain(|(name, ..)| *name != line.name.text);
         space.parameters.push((&line.name.text, line.name.span, values));
     }
@@ -33,7 +33,7 @@ pub(super) fn settled<'a>(
     let mut game = description.clone();
     space.sprites(&mut game.sprites);
     for line in &mut game.interactions {
-        // addTimer passes on parameters that it does not use to the scheduled effect, as written.
+        // addTimer passes the parameters that it does not use on to the scheduled effect, as written.
         let own = |key: &str| COMMON.contains(&key) || ["timer", "repeating", "nextExecution"].contains(&key);
         let timer = line.effect.text == "addTimer";
         space.put_in(line.params.iter_mut().filter(|param| !timer || own(&param.key.text)));

@@ -5,7 +5,7 @@ use crate::analysis::Analysis;
 use crate::rules::effects::{CHANCE, Sentence, Value};
 use crate::rules::{SpriteType, Timed};
 
-/// Returns the sentence for an effect on two colliding parties.
+/// Returns the sentence for an effect that applies when `one` and `two` collide.
 pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let both = Party { you: one.you || two.you, ..one.clone() };
     let filler =
@@ -13,7 +13,7 @@ pub(super) fn when_they_meet(analysis: &Analysis, sentence: &Sentence, one: &Par
     filler.fill(sentence.meeting)
 }
 
-/// Returns the words that introduce the points for an effect on two colliding parties.
+/// Returns the words that introduce the points awarded when an effect applies to `one` and `two`.
 pub(super) fn if_scored(analysis: &Analysis, sentence: &Sentence, one: &Party, two: &Party) -> String {
     let filler = Filler { analysis, sentence, one: Some(one), two: Some(two), both: None, target: None };
     filler.fill(sentence.if_scored)

@@ -33,7 +33,7 @@ pub struct Guide {
     pub losing: Vec<String>,
     /// The course of a tick: facts that apply to all interactions, as far as they matter in this game.
     pub order: Vec<String>,
-    /// The behaviour of all other sprites, one line per type, in registry order.
+    /// The behaviour of all sprites other than avatars, one line per type, in registry order.
     pub sprites: Vec<String>,
     /// The members of the groups to which interactions, chasers and fleeing sprites refer, one line per
     /// group.

@@ -176,7 +176,7 @@ fn reopens(analysis: &Analysis) -> bool {
     })
 }
 
-/// Returns `true` if some sprites that vanish by themselves affect other sprites.
+/// Returns `true` if some sprites that vanish on their own affect other sprites.
 fn lingers(analysis: &Analysis) -> bool {
     let acts = |stype: SpriteType| {
         let touched =

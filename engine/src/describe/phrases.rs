@@ -130,7 +130,7 @@ phrases! {
 }
 
 impl Phrase {
-    /// Returns the template with its placeholders filled: each gets the text with its name.
+    /// Returns the template with each placeholder replaced by the text of the same name.
     pub(super) fn with(self, values: &[(&str, &str)]) -> String {
         let mut text = String::new();
         let mut rest = self.text();

@@ -9,9 +9,9 @@ use crate::rules::effects::{Sentence, Target};
 use crate::rules::terminations::{Condition as Written, Decision, Termination};
 use crate::rules::{Counting, Rules, SpriteType, Timed};
 
-/// Returns one sentence per interaction line, in order of execution, covering all the line's partners. If an
-/// earlier line already contains one of its pairs, a line runs at several positions and gets one sentence for
-/// each. The three lines of a swap get one sentence.
+/// Returns one sentence per interaction line, in order of execution, covering all the line's partners. A line
+/// runs at several positions if an earlier line already contains one of its pairs, and then gets one sentence
+/// for each position. The three lines of a swap get one sentence.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
     let parts = swap::parts(analysis);
     let (mut sentences, mut rest) = (Vec::new(), &parts[..]);
@@ -105,7 +105,8 @@ fn stays(analysis: &Analysis, written: SpriteType) -> bool {
     !analysis.has_timed_effects() && !concerned.into_iter().any(goes)
 }
 
-/// Returns the sentences about how an execution changes the counters, unless the effect itself decides that.
+/// Returns the sentences about the changes that an execution makes to the counters, unless the effect itself
+/// decides them.
 fn counters(counting: &Counting) -> String {
     let amount = |on: bool, amount: Option<i32>| if on { amount.unwrap_or(0) } else { 0 };
     let both = counting.counter.iter().zip(&counting.counter_else);
@@ -282,7 +283,7 @@ fn condition(analysis: &Analysis, condition: &Condition, types: &[SpriteType], w
         Condition::AtMost(_, 0) | Condition::Exactly(_, 0) => Phrase::NoneLeft.with(&[("name", &none())]),
         Condition::AtMost(_, limit) => limited(Phrase::AtMost, *limit),
         Condition::AtLeast(_, limit) => limited(Phrase::AtLeast, *limit),
-        // The count starts with more sprites and never grows.
+        // The count starts above the limit and never grows.
         Condition::Exactly(_, limit) if !win && analysis.only_falls(types) => {
             limited(Phrase::OnlyLeft, *limit)
         }

@@ -9,7 +9,7 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 
-/// Returns one line for each possible type, except avatars, that does something by itself, followed by lines
+/// Returns one line for each possible type, except avatars, whose sprites act on their own, followed by lines
 /// about the remaining types.
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
@@ -66,7 +66,7 @@ fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
     let traits = &info.traits;
-    // Sprites of parent types never do anything by themselves.
+    // Sprites of parent types never act on their own.
     let updated = info.class.filter(|class| info.order.is_some() && !class.is_avatar());
     let name = |stype: SpriteType| analysis.game().name(stype);
     let mut parts: Vec<String> =
@@ -212,7 +212,7 @@ pub(super) fn is_updated_at_once(analysis: &Analysis, stype: SpriteType) -> (boo
     let by_rules = |encounter: &Encounter| {
         encounter.does(|effect| effect.makes().contains(&stype) || *effect == EffectSummary::Clone)
     };
-    // Levels seldom place a type that is created during play, even if a character stands for it.
+    // Levels rarely place a type that is created during play, even if a character stands for it.
     let later = makers.is_empty() || makers.contains(&false) || analysis.encounters().iter().any(by_rules);
     (makers.contains(&true), later)
 }
@@ -276,12 +276,12 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
         };
     }
     let period = if traits.cooldown == 1 { "tick".to_owned() } else { count(traits.cooldown.into(), "tick") };
-    // Makers that a level places count from their first update.
+    // Producers that a level places count from their first update.
     let from = if traits.cooldown < 2 {
         String::new()
     } else if analysis.facts(stype).symbols.is_empty() {
-        // For makers that appear later, the time of the first creation also depends on the tick in which they
-        // appeared.
+        // For producers that appear later, the time of the first creation also depends on the tick in which
+        // they appeared.
         Phrase::Soon.with(&[("period", &period)])
     } else {
         Phrase::From.with(&[])
@@ -401,7 +401,7 @@ fn cost(analysis: &Analysis, avatar: &Avatar, class: SpriteClass) -> String {
     }
 }
 
-/// Returns the phrase about the functions of the keys other than shooting.
+/// Returns the phrase about the functions of the keys, except shooting.
 fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool) -> &'static str {
     use SpriteClass as C;
     match (class, avatar.steering) {

@@ -1,9 +1,9 @@
-//! Swaps: three lines by which two types turn into each other, by way of a third type.
+//! Swaps: three interaction lines that turn two types into each other by way of a third type.
 
 use crate::analysis::{Analysis, EffectSummary, Encounter};
 use crate::rules::{SpriteType, Timed};
 
-/// Two types that turn into each other at the same touch.
+/// Two types that turn into each other in the same collision.
 pub(super) struct Swap {
     pub(super) one: SpriteType,
     pub(super) other: SpriteType,
@@ -12,7 +12,8 @@ pub(super) struct Swap {
 }
 
 impl Swap {
-    /// Returns the swap that three consecutive parts of the interactions make. Each part has the encounters of one line.
+    /// Returns the swap formed by three consecutive parts of the interactions, if they form one. Each part
+    /// contains the encounters of one line.
     pub(super) fn of(analysis: &Analysis, parts: &[(usize, Vec<&Encounter>)]) -> Option<Swap> {
         let [first, second, third] = parts else { return None };
         let pairs = |part: &(usize, Vec<&Encounter>)| {
@@ -39,7 +40,8 @@ pub(super) fn parts(analysis: &Analysis) -> Vec<(usize, Vec<&Encounter>)> {
     parts.map(|part| (part[0].line, part.iter().collect())).collect()
 }
 
-/// Returns the two types of a line that only turns every sprite of the first type into a sprite of the second.
+/// Returns the two types of a line that does nothing except turn every sprite of the first type into a sprite
+/// of the second.
 fn changed(
     analysis: &Analysis,
     (line, encounters): &(usize, Vec<&Encounter>),
@@ -53,7 +55,7 @@ fn changed(
     }
 }
 
-/// Returns `true` if no level places a type's sprites and one line alone creates them.
+/// Returns `true` if no level places a type's sprites and only one line creates them.
 fn is_made_once(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let makes = |encounter: &&Encounter| encounter.does(|effect| effect.makes().contains(&stype));

@@ -41,8 +41,8 @@ pub enum Part {
     },
     /// A value other than a sprite.
     Value {
-        /// The name of the value. For example, the values of a held amount of a resource are named `least`
-        /// and `resource`.
+        /// The name of the value. For example, the required amount of a resource is named `least`, and the
+        /// resource itself `resource`.
         name: &'static str,
         /// The text with which the value starts, if the value can be empty.
         optional_start: Option<&'static str>,

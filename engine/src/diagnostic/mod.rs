@@ -173,8 +173,8 @@ impl Diagnostic {
 }
 
 /// Returns the candidate most likely meant by `wrong`: a candidate with the same words in a different order,
-/// or with a few different letters. Candidates with the opposite meaning, or that share only their ending
-/// with `wrong`, are not considered.
+/// or with a few different letters. Candidates that have the opposite meaning, or that share only their
+/// ending with `wrong`, are not considered.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
     let length = key.chars().count();

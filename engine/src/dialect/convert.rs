@@ -52,7 +52,7 @@ pub fn convert(file: &str) -> Conversion {
     let source = without_tabs(source, &mut changes);
     let (mut description, Diagnostics(mut problems)) = syntax::parse_all(&source);
     let line = |span: Span| line_and_column(&source, span.start).0;
-    // Printing the description sorts the sections and indents all lines alike.
+    // Printing the description sorts the sections and indents all lines consistently.
     for moved in problems.iter().filter(|problem| problem.code == "section-order") {
         let (from, to) = (moved.message.clone(), "the SpriteSet comes first".to_owned());
         changes.push(Change { line: line(moved.span), from, to });

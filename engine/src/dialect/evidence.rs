@@ -5,7 +5,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::Description;
 use std::collections::BTreeSet;
 
-/// Words of py-vgdl, each of which is sufficient evidence by itself.
+/// Words of py-vgdl, each of which is sufficient evidence on its own.
 const PY_VGDL: [&str; 17] = [
     "block_size",
     "AStarChaser",
@@ -25,7 +25,8 @@ const PY_VGDL: [&str; 17] = [
     "NoFrictionPhysics",
     "GravityPhysics",
 ];
-/// Words of py-vgdl that authors may also make up. Only two or more such words are sufficient evidence.
+/// Words of py-vgdl that authors may also invent independently. Only two or more such words are sufficient
+/// evidence.
 const PY_VGDL_MAYBE: [&str; 4] = ["frame_rate", "MarioAvatar", "InertialAvatar", "killIfOtherHasLess"];
 /// Words that occur in EMPA's games.
 const EMPA: [&str; 2] = ["bonus", "NoveltyTermination"];
@@ -33,8 +34,8 @@ const EMPA_MAYBE: [&str; 2] = ["nothing", "changeScore"];
 /// The maximum number of words listed in a message.
 const SHOWN: usize = 4;
 
-/// Returns the problems in a faulty game, starting with the one about its dialect. Python files and games for
-/// several players cannot be repaired line by line, so for such files, returns only the problem about the
+/// Returns the problems in a faulty game, starting with the one about its dialect. Python files and
+/// multiplayer games cannot be repaired line by line, so for such files, returns only the problem about the
 /// kind of file.
 pub(crate) fn told(
     source: &str,
@@ -68,7 +69,7 @@ pub(crate) fn told(
     problems
 }
 
-/// Returns `true` if the game's first line requires several players.
+/// Returns `true` if the game's first line declares a multiplayer game.
 pub(crate) fn is_of_several_players(description: &Description) -> bool {
     let players = description.header.params.iter().filter(|param| param.key.text == "no_players");
     players.filter_map(|param| param.value.text.parse::<i64>().ok()).any(|players| players > 1)

@@ -1,4 +1,4 @@
-//! Flat data: structs that consist of numbers and number buffers, whose fields are declared once.
+//! Flat data: structs of numbers and number buffers, with each field declared only once.
 //!
 //! From the list of fields, the macro derives copies that reuse buffers, the size of a copy, and the
 //! differences between two values (`pack.rs`).
@@ -48,7 +48,7 @@ macro_rules! flat {
                     self.$buffer.clone_from(&source.$buffer);
                 })*
                 $(self.$scratch.clear();)*
-                // Updating the reference count costs time and is seldom needed.
+                // Updating the reference count costs time and is rarely needed.
                 $(if self.$shared.as_ref().map(std::sync::Arc::as_ptr)
                     != source.$shared.as_ref().map(std::sync::Arc::as_ptr)
                 {
@@ -58,7 +58,7 @@ macro_rules! flat {
         }
 
         impl $Name {
-            /// Returns the number of bytes that copying the value copies.
+            /// Returns the number of bytes copied when the value is copied.
             pub(crate) fn size_in_bytes(&self) -> usize {
                 let buffers = 0 $(+ size_of_val(&self.$buffer[..]))*;
                 size_of::<$Name>() + buffers
@@ -125,7 +125,7 @@ pub(crate) fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
         let value = T::take(from);
         match buffer.get_mut(next - 1) {
             Some(old) => *old = value,
-            // Beyond the length of the base, every entry counts as different.
+            // Beyond the end of the base, every entry counts as different.
             None => buffer.push(value),
         }
     }

@@ -189,7 +189,7 @@ struct LevelReader<'a> {
     problems: Vec<Diagnostic>,
     avatars: Vec<(Span, SpriteType)>,
     sprites: usize,
-    /// Unmapped characters: the cell, the character, and its position in the text.
+    /// Unmapped characters, each with its cell and its position in the text.
     undefined: Vec<(usize, char, Span)>,
 }
 
@@ -310,7 +310,7 @@ impl LevelReader<'_> {
             let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
-            // A letter or digit was probably meant as a sprite of its own, not as the ground around it.
+            // A letter or digit was probably meant as a separate sprite, not as the ground around it.
             let near = around(at, columns, cells).filter(|_| count == 1 && !symbol.is_alphanumeric());
             let shown = symbol.escape_default();
             let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
@@ -398,7 +398,7 @@ impl LevelReader<'_> {
     }
 
     /// Reports avatars of a parent type, which the engine does not find when the level starts. Nor does it
-    /// find avatars of the type that is drawn first, but the warning about that type belongs to the game.
+    /// find avatars of the type that is drawn first, but that warning is reported for the game instead.
     fn report_lost_avatar(&mut self) {
         let info = |stype: SpriteType| &self.game.0.types[stype.index()];
         let Some(&(span, stype)) = self.avatars.first() else { return };

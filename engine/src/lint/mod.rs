@@ -171,7 +171,7 @@ impl Linter<'_> {
             let displacement = self.game.0.effects[usize::from(encounter.effect)].summary.displacement;
             encounter.does(copied) || displacement.is_some_and(|to| to != Displacement::Back)
         };
-        // Avatars that no player controls are reported elsewhere.
+        // Avatars that the player cannot control are reported elsewhere.
         facts.motion != Motion::Still
             || info.class.is_some_and(SpriteClass::is_avatar)
             || info.given_speed
@@ -249,7 +249,7 @@ impl Linter<'_> {
         let mut found: Vec<(&Param, bool, String)> = Vec::new();
         for (_, line) in self.game.description().sprite_lines() {
             let Some(stype) = self.game.sprite_type(&line.name.text) else { continue };
-            // If the line declares a parent, its subtypes may use the parameter or not.
+            // If the line declares a parent, its subtypes may or may not use the parameter.
             let heirs: Vec<SpriteType> = self
                 .game
                 .sprite_types()

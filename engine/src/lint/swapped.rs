@@ -53,7 +53,7 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
     };
     let plays = |name: &str| any(name, &|stype| game.class(stype).is_some_and(SpriteClass::is_avatar));
     // A rule whose first sprite is counted by a termination is written as intended. A rule between two
-    // unrelated sprites was hardly meant to win the game.
+    // unrelated sprites was probably not meant to win the game.
     let suspect = |line: &InteractionLine| {
         let first = line.first.text.as_str();
         let partner = line.second.iter().any(|word| plays(&word.text) || counts(&word.text, true));

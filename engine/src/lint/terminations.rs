@@ -120,8 +120,8 @@ fn limit_of(line: &TerminationLine) -> Span {
     limit.map_or(line.class.span, Param::span)
 }
 
-/// Returns `true` if a termination may lose a level in its first tick although no player changes its count:
-/// that is, if the termination holds while some of its sprites exist.
+/// Returns `true` if a termination may lose a level in its first tick without any player changing the sprite
+/// count, because the termination holds while some of its sprites exist.
 fn may_lose_from_start(goal: &Goal) -> bool {
     let some = matches!(goal.condition, Counted::AtMost(_, 1..) | Counted::Exactly(_, 1..));
     goal.can_lose() && some && goal.attainable == Attainable::FromStart

@@ -37,7 +37,7 @@ impl Chance {
         (self.0 >> (48 - bits)) as i32
     }
 
-    /// Returns a uniform number in `0..bound`. Powers of two need one draw, and other bounds seldom need
+    /// Returns a uniform number in `0..bound`. Powers of two need one draw, and other bounds rarely need
     /// more.
     pub fn below(&mut self, bound: i32) -> i32 {
         debug_assert!(bound > 0, "a choice needs at least one option");

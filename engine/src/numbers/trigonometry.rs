@@ -5,8 +5,8 @@
 //! such as the `libm` crate, evaluate the polynomials in a different order and differ in the last bit for
 //! about one argument in a hundred.
 
-/// The largest angle that this module reduces. Larger angles are left to the `libm` crate, but no rotation in
-/// a game of 2,000 ticks reaches them.
+/// The largest angle that this module reduces. Larger angles are passed to the `libm` crate, but no rotation
+/// in a game of 2,000 ticks reaches them.
 const LARGEST: f64 = 823_549.66;
 
 /// Returns the sine of an angle in radians.

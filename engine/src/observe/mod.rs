@@ -31,11 +31,11 @@ pub struct Observation {
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, regardless of its type's name, or `None` once the avatar is gone.
     pub avatar: Option<AvatarView>,
-    /// The visible sprites other than avatars that move in a direction of their own, in drawing order.
+    /// The visible sprites, other than avatars, that have an orientation and can move, in drawing order.
     pub movers: Vec<MoverView>,
 }
 
-/// The observable properties of a moving sprite.
+/// The observable properties of a sprite that has an orientation and can move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MoverView {
     /// The name of the sprite's type.
@@ -252,9 +252,9 @@ impl Game {
         records
     }
 
-    /// Returns the countdowns of sprites that create other sprites or vanish by themselves, by type and then
-    /// in order of creation. The countdowns to timed effects on types with sprites follow, in order of execution.
-    /// Cost: O(sprites with countdowns + timers).
+    /// Returns the countdowns of sprites that create other sprites or vanish on their own, by type and then
+    /// in order of creation. After these come the countdowns to timed effects, in order of execution, for
+    /// types that currently have sprites. Cost: O(sprites with countdowns + timers).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         use SpriteClass as C;
         let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
@@ -306,8 +306,8 @@ impl Game {
         state.world.timers().iter().rev().filter_map(countdown)
     }
 
-    /// Returns the event that a timed effect causes, and the type that it concerns. Effects in every tick or every
-    /// second tick cause no event.
+    /// Returns the event that a timed effect causes, and the type that it concerns. Effects that run in every
+    /// tick or every second tick cause no event.
     fn timed_event(&self, timed: &Timed) -> Option<(SpriteType, Event)> {
         if timed.repeating && timed.timer <= 2 {
             return None;
@@ -368,7 +368,7 @@ impl State {
         self.world.sprites_of(stype).map(|sprite| (sprite.rect, self.world.overrides_of(&sprite).orientation))
     }
 
-    /// Returns the number of a type's sprites, excluding disabled avatars. Cost: O(1).
+    /// Returns the number of sprites of a type, excluding disabled avatars. Cost: O(1).
     pub fn alive(&self, stype: SpriteType) -> usize {
         let group = self.world.group(stype);
         usize::from(group.count - group.disabled)

@@ -32,7 +32,7 @@ pub struct Planes {
     unnoted: u64,
 }
 
-/// A board's sprites as last drawn, by slot.
+/// The sprites of a board as last drawn, by slot.
 #[derive(Clone, Debug, Default)]
 pub struct Drawn(Vec<u32>);
 
@@ -175,7 +175,7 @@ impl Planes {
         }
     }
 
-    /// Visits the cells that a rectangle overlaps, by the rule that observations use.
+    /// Visits the cells that a rectangle overlaps, using the same rule as observations.
     fn cover(&self, world: &World, rect: Rect, mark: &mut impl FnMut(usize)) {
         let block = world.block().max(1);
         let span = |from: i32, size: i32, limit: i32| {

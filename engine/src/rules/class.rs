@@ -3,12 +3,12 @@
 use crate::rules::Action;
 
 base::named_enum! {
-    /// A class's behaviour: what its sprites do by themselves.
+    /// A class's behaviour: the actions that its sprites take on their own.
     pub enum ClassFamily {
-        /// Sprites that do nothing by themselves: they can be collected, be pushed, or lead to or carry other
-        /// sprites.
+        /// Sprites that do nothing on their own. They can be collected or pushed, and can lead to or carry
+        /// other sprites.
         Thing = "thing",
-        /// Sprites that do nothing by themselves and can be held.
+        /// Sprites that do nothing on their own and can be held.
         Resource = "resource",
         /// Sprites that disappear after a while, or spread.
         Flicker = "flicker",

@@ -50,8 +50,8 @@ pub(crate) struct TypeInfo {
     pub(crate) counted: bool,
     /// `true` if some effect can give a speed to sprites that have none.
     pub(crate) given_speed: bool,
-    /// The parameter that selects among the type's images, if it has none. The reference crashes on a level
-    /// that places sprites of such a type.
+    /// The parameter that selects among the type's images, if the type has no images. The reference crashes
+    /// on a level that places sprites of such a type.
     pub(crate) lacks_image: Option<Span>,
     /// `true` if the type lacks a parameter without which the reference crashes when it creates a sprite of
     /// the type.
@@ -134,7 +134,7 @@ impl TypeInfo {
     }
 }
 
-/// One compiled interaction line. All its right-hand sprites share this entry and its memory.
+/// One compiled interaction line. All right-hand sprites on the line share this entry and its memory.
 #[derive(Clone, Debug)]
 pub(crate) struct EffectInfo {
     pub(crate) effect: Effect,
@@ -162,9 +162,9 @@ pub(crate) mod memory {
     pub(crate) const APPLY_SCORE: u8 = 1;
     /// The last execution of subtractHealthPoints killed a sprite.
     pub(crate) const KILLED: u8 = 2;
-    /// `counter` does not count. Some effects set this bit at run time.
+    /// The changes in `counter` do not apply. Some effects set this bit at run time.
     pub(crate) const NO_COUNT: u8 = 4;
-    /// `counterElse` does not count.
+    /// The changes in `counterElse` do not apply.
     pub(crate) const NO_COUNT_ELSE: u8 = 8;
 }
 
@@ -273,7 +273,7 @@ impl Aliases {
 pub(crate) struct Rules {
     pub(crate) description: Description,
     pub(crate) digest: Digest,
-    /// The warnings about the text alone.
+    /// The warnings that depend on the text alone.
     pub(crate) warnings: Vec<Diagnostic>,
     /// All warnings, including those about the rules' meaning. Computed on first use.
     pub(crate) all_warnings: OnceLock<Vec<Diagnostic>>,

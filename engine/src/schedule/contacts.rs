@@ -95,7 +95,7 @@ impl Schedule {
         }
     }
 
-    /// Records that two bits share their first cell.
+    /// Records that two bits now share a cell.
     #[inline(never)]
     fn begin_to_meet(&mut self, contacts: &Contacts, one: usize, two: usize) {
         self.meets[one] |= 1 << two;

@@ -136,7 +136,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.flights.swap_remove(at.expect("a sprite in flight is in the list"));
     }
 
-    /// Ends a flight as of before the sprite's update in this tick.
+    /// Ends a flight with the values that the sprite has before its update in this tick.
     fn land_late(&mut self, slot: Slot) {
         self.land(slot, self.world.tick() - 1);
         let sprite = self.world.edit_motion(slot);

@@ -31,9 +31,9 @@ use crate::world::{Slot, Sprite, World, flag};
 
 /// Values of [`Sprite::activity`], which record the sprite's activity in this tick.
 pub(crate) mod mark {
-    /// The sprite has not moved by itself, or not in the way that sleeping sprites do.
+    /// The sprite has not moved on its own, or not in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
-    /// The sprite has moved by itself, and nothing else has happened.
+    /// The sprite has moved on its own, and nothing else has happened.
     pub(crate) const MOVED: u16 = 0x7FFF;
     /// Something else has happened as well.
     pub(crate) const DISTURBED: u16 = 0x7FFE;
@@ -119,7 +119,7 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
         );
         let is_idle = info.class.is_some() && info.is_idle();
         (plain || draws(info) && !traits.oriented_image)
-            // Types that never move by themselves need no shortcut.
+            // Types that never move on their own need no shortcut.
             && !is_idle
             && !traits.continuous
             // Sprites that wait, and enter a new cell with every move, are cheaper to update than to fly.
@@ -198,8 +198,8 @@ impl Step<'_, Foresight<'_>> {
         self.wake();
     }
 
-    /// Returns `true` if a move is the sprite's own, or the step back from it. Both moves are evaluated at
-    /// the end of the tick.
+    /// Returns `true` if a move is either the sprite's own move or the move that undoes it. Both moves are
+    /// evaluated at the end of the tick.
     fn is_try(&self, sprite: &Sprite) -> bool {
         self.scheduler.plan.shortcuts[sprite.stype.index()].sleeps
             && (self.updating >= 0 || !matches!(sprite.activity, mark::NOTHING | mark::DISTURBED))
@@ -303,8 +303,8 @@ impl Step<'_, Foresight<'_>> {
         let quiet = sleeper.cells(self.world).all(|cell| {
             self.scheduler.schedule.stamps[cell] < now && self.scheduler.schedule.watched[cell] < u8::MAX
         });
-        // At the sprite's position, an effect might run on it that its own movement avoids while it is awake,
-        // such as an effect at the edge.
+        // An effect, such as one at the edge, might run on the sprite at its current position. While the
+        // sprite is awake, its own movement avoids that effect.
         if !quiet || sprite.is(flag::OFF) || self.overlaps_rule_partner(slot) {
             return;
         }
@@ -316,7 +316,7 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.sleepers.push(sleeper);
     }
 
-    /// Returns `true` if a rule pairs the sprite with anything that it overlaps where it is.
+    /// Returns `true` if a rule pairs the sprite with anything that it overlaps at its current position.
     fn overlaps_rule_partner(&self, slot: Slot) -> bool {
         let Sprite { rect, stype, .. } = *self.world.sprite(slot);
         let partners = self.models.bits[stype.index()].partners;

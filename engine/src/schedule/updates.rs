@@ -20,7 +20,7 @@ fn stays(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
         && (traits.is_static || traits.only_active || stands() || waits(sprite, traits, world))
 }
 
-/// Returns `true` if a sprite does not move by itself because its cooldown has not passed.
+/// Returns `true` if a sprite's cooldown has not passed, so that it does not move on its own.
 #[inline]
 fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     let age = world.tick().wrapping_sub(sprite.moved_at);
@@ -95,7 +95,7 @@ fn threshold(prob: f64) -> i32 {
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Starting at `slot`, skips SpawnPoints and Bombers that merely make a draw in this tick, which is the most
+/// Skips SpawnPoints and Bombers, from `slot` on, that merely make a draw in this tick. This is the most
 /// frequent case. Returns the first sprite that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();

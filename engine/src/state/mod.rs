@@ -41,7 +41,7 @@ impl State {
         self.world.score() as f64
     }
 
-    /// Returns the game's counters, whose number the game's `no_counters=` sets.
+    /// Returns the game's counters. The game's `no_counters=` sets their number.
     pub fn counters(&self) -> &[i32] {
         self.world.counters()
     }
@@ -75,7 +75,7 @@ impl State {
         self.world.reseed(chance, chance);
     }
 
-    /// Returns the number of bytes that a copy of the state copies.
+    /// Returns the number of bytes copied when the state is copied.
     pub fn size_in_bytes(&self) -> usize {
         self.world.size_in_bytes() + self.schedule.size_in_bytes()
     }
@@ -85,7 +85,7 @@ impl State {
         self.world.block()
     }
 
-    /// Returns the columns and rows of the board.
+    /// Returns the numbers of columns and rows on the board.
     pub fn size(&self) -> (i32, i32) {
         (self.world.columns(), self.world.rows())
     }

@@ -191,7 +191,7 @@ impl World {
         } else {
             self.tick().wrapping_sub(sprite.moved_at).wrapping_add(1)
         };
-        // The reference's counter overflows to the smallest number, after which a very old sprite is young
+        // The reference's counter overflows to the smallest integer, which makes a very old sprite young
         // again.
         if age > i32::MAX - 2 * MAX_TICKS { age } else { age.min(info.traits.cooldown) }
     }

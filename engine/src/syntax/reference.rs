@@ -51,7 +51,7 @@ impl Node<'_> {
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
-            // A one-word line is read here, and makes the reading end later.
+            // A one-word line is accepted here, and ends the reading later.
             Some(Section::InteractionSet) if self.tokens.len() == 1 => return true,
             Some(Section::InteractionSet) => match self.arrow() {
                 Some(at) => &self.tokens[at + 1..],

@@ -52,7 +52,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Ac
         (_, Family::Avatar) => {
             moving(step, slot, action);
         }
-        // A parameter can make sprites of other classes avatars.
+        // A parameter can turn sprites of other classes into avatars.
         (_, Family::Thing | Family::Resource | Family::Flicker | Family::Missile) => {
             moving(step, slot, action);
         }
@@ -111,7 +111,7 @@ fn shooting(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     }
 }
 
-/// Shoots from the avatar's own corner if it has ammunition. The shot keeps its own orientation.
+/// Shoots from the avatar's corner if the avatar has ammunition. The shot keeps its own orientation.
 fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let sprite = *step.world.own(slot);
     let traits = &step.rules.types[sprite.stype.index()].traits;

@@ -187,7 +187,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         S::run_pass(self, pass, newborn, watch);
     }
 
-    /// Returns one side of a pass: a type and its relatives.
+    /// Returns one side of a pass, which consists of a type and its relatives.
     pub(crate) fn side(&self, stype: SpriteType) -> Side<'a> {
         Side { family: &self.rules.types[stype.index()], bits: self.models.trees[stype.index()] }
     }
@@ -269,7 +269,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Executes an effect on two sprites, and reports the removed sprites if `watch` asks for removals.
+    /// Executes an effect on one or two sprites, and reports the removed sprites if `watch` wants removals.
     #[inline(always)]
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
         if !watch.wants_removals() {

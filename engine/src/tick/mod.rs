@@ -49,7 +49,7 @@ pub trait Watch {
     /// reported only once.
     fn interaction(&mut self, line: usize);
 
-    /// Returns `true` if the observer wants calls of [`Watch::meeting`].
+    /// Returns `true` if the observer wants calls to [`Watch::meeting`].
     fn wants_meetings(&self) -> bool {
         false
     }
@@ -58,7 +58,7 @@ pub trait Watch {
     /// on no sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
 
-    /// Returns `true` if the observer wants calls of [`Watch::removal`].
+    /// Returns `true` if the observer wants calls to [`Watch::removal`].
     fn wants_removals(&self) -> bool {
         false
     }

@@ -136,8 +136,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.doom(slot);
     }
 
-    /// Makes a sprite the player's avatar. From then on, this sprite is updated and ages, and the previous
-    /// avatar is not and does not.
+    /// Makes a sprite the player's avatar. From then on, this sprite is updated and ages instead of the
+    /// previous avatar.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = self.world.set_avatar(slot);
         if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {

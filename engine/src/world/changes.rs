@@ -1,4 +1,5 @@
-//! Changes to sprites. Every change, whatever the rule, is made by a method in this file or one in this list:
+//! Changes to sprites. Every change, whichever rule causes it, is made by a method in this file or by one in
+//! this list:
 //!
 //! - [`World::admit`] adds a new sprite, and [`World::release`] removes a sprite. In between, a sprite may be
 //!   on the kill list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).

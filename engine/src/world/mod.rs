@@ -103,7 +103,7 @@ flat! {
             left_behind: u32,
             /// The bits of sprites so large that they count as being everywhere.
             vast: u64,
-            /// The hash of `memory` and `templates` when last settled.
+            /// The hash of `memory` and `templates` when the running hash was last settled.
             memory_hash: u64,
             memory_is_dirty: bool,
             /// The second random stream, for WalkerJumper and for choices that the reference makes without a seed.
@@ -119,7 +119,7 @@ flat! {
             cells: Slot,
             /// For each cell, the bits of the types that cover the cell (`models.rs`).
             masks: u64,
-            /// For each cell, the bits of the types with several sprites in the cell. Empty until a cell
+            /// For each cell, the bits of the types that have several sprites in the cell. Empty until a cell
             /// contains several sprites.
             crowds: u64,
             /// For each cell, the bits of the large sprites that cover the cell or recently did so. Empty if

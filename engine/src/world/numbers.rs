@@ -70,7 +70,7 @@ impl World {
         self.chance
     }
 
-    /// Returns the random number generator, to draw from.
+    /// Returns the random number generator for drawing random numbers.
     #[inline(always)]
     pub(crate) fn dice(&mut self) -> &mut Chance {
         &mut self.chance
@@ -81,7 +81,7 @@ impl World {
         self.jumps
     }
 
-    /// Returns the second random stream, to draw from.
+    /// Returns the second random stream for drawing random numbers.
     pub(crate) fn second_dice(&mut self) -> &mut Chance {
         &mut self.jumps
     }
@@ -122,7 +122,7 @@ impl World {
         self.census_changed = look_again;
     }
 
-    /// Allows or forbids counters to end the game. Returns `true` if the setting changes.
+    /// Sets whether counters can end the game. Returns `true` if the setting changes.
     pub(crate) fn permit_end(&mut self, can_end: bool) -> bool {
         std::mem::replace(&mut self.can_end, can_end) != can_end
     }
@@ -191,7 +191,7 @@ impl World {
         !self.shields.is_empty() && self.shields.binary_search(&shield).is_ok()
     }
 
-    /// Records that an effect has pulled a sprite in this tick. Returns the number of entries among which the
+    /// Records that an effect has pulled a sprite in this tick. Returns the number of entries into which the
     /// new one was sorted, or `None` if the effect has already pulled the sprite.
     pub(crate) fn pull(&mut self, effect: u16, slot: Slot) -> Option<usize> {
         let at = self.pulled.binary_search(&(effect, slot)).err()?;

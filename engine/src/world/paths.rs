@@ -139,7 +139,7 @@ impl World {
     }
 
     /// Returns the first step of the path between two pixels, or `None` if there is no path or no step to
-    /// take. Also returns the amount of work that finding the path counts as.
+    /// take. Also returns the amount of work counted for finding the path.
     pub(crate) fn first_step(&self, from: (i32, i32), to: (i32, i32)) -> (Option<Direction>, usize) {
         let (Some(start), Some(goal)) = (self.path_cell(from), self.path_cell(to)) else { return (None, 1) };
         let Some(paths) = self.paths.as_deref() else { return (None, 1) };

@@ -12,10 +12,10 @@ pub struct BoardBrief {
     /// The slot in the course, from 0 to 4: introduce, confirm, combine, twist, exam. The slot determines the board
     /// size and the numbers of sprites.
     pub demand: u8,
-    /// The minimum and maximum numbers of sprites of some types. All other numbers follow from the rules and the
-    /// demand.
+    /// The minimum and maximum numbers of sprites for some types. The numbers for all other types follow from the rules
+    /// and the demand.
     pub counts: Vec<(SpriteType, (usize, usize))>,
-    /// The idioms of types about which the caller has better information than [`Idiom::of`].
+    /// The idioms of types for which the caller knows better than [`Idiom::of`].
     pub idioms: Vec<(SpriteType, Idiom)>,
     /// The types that the board must not contain.
     pub without: Vec<SpriteType>,

@@ -3,7 +3,7 @@
 use crate::levels::grid::{FAR, Grid};
 use base::Sampler;
 
-/// A line that divides a board, and the gaps in the line. The line does not consist of walls yet.
+/// A line that divides a board, and the gaps in it. The line's walls have not been placed yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Divider {
     /// The line's cells in order, including gaps.
@@ -17,7 +17,7 @@ pub(crate) struct Canvas {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
     pub(crate) dividers: Vec<Divider>,
-    /// The floor in or around the landmark, for the most important sprites.
+    /// The floor cells in or around the landmark, reserved for the most important sprites.
     pub(crate) marks: Vec<usize>,
 }
 
@@ -39,27 +39,27 @@ impl Canvas {
         self.grid.rows - 2
     }
 
-    /// Turns the on-board part of a rectangle into walls.
+    /// Fills the part of a rectangle that lies on the board with walls.
     pub(crate) fn fill(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = true;
         }
     }
 
-    /// Turns the part of a rectangle inside the border into floor.
+    /// Clears the part of a rectangle that lies within the border.
     pub(crate) fn clear(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = self.grid.on_border(cell);
         }
     }
 
-    /// Marks a rectangle's floor as part of the landmark.
+    /// Marks the floor of a rectangle as part of the landmark.
     pub(crate) fn mark(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         let cells = self.cells((x, y), size);
         self.marks.extend(cells.into_iter().filter(|&cell| !self.grid.on_border(cell)));
     }
 
-    /// Returns a rectangle's on-board cells, row by row.
+    /// Returns the cells of a rectangle that lie on the board, row by row.
     pub(crate) fn cells(&self, (x, y): (usize, usize), size: (usize, usize)) -> Vec<usize> {
         if x >= self.grid.columns || y >= self.grid.rows {
             return Vec::new();
@@ -89,8 +89,8 @@ impl Canvas {
         cells
     }
 
-    /// Adds a divider with `gaps` gaps, each one or two cells wide, on straight stretches and separated from each
-    /// other.
+    /// Adds a divider with up to `gaps` gaps. Each gap is one or two cells wide and lies on a straight stretch, apart
+    /// from the other gaps.
     pub(crate) fn divide(&mut self, line: Vec<usize>, gaps: usize, sampler: &mut Sampler) {
         let is_straight = |at: usize| {
             at > 0
@@ -134,7 +134,7 @@ impl Canvas {
         Canvas { grid: image, wall, dividers, marks: all(&self.marks) }
     }
 
-    /// Fills some corners and sides of the floor, so that its outline is not just a rectangle.
+    /// Fills some of the floor's corners and edges, so that its outline is not a plain rectangle.
     pub(crate) fn bite(&mut self, sampler: &mut Sampler) {
         let (width, height) = (self.width(), self.height());
         for corner in 0..4 {
@@ -157,7 +157,7 @@ impl Canvas {
     }
 
     /// Removes walls that do not touch another wall, and fills disconnected floor. Dividers count as floor. Returns
-    /// `false` if little floor is left, or if much of the floor is narrow.
+    /// `false` if a disconnected part of the floor is too large to fill, or if little floor is left.
     pub(crate) fn settle(&mut self) -> bool {
         for cell in 0..self.grid.len() {
             let barred = |next: &Option<usize>| next.is_none_or(|next| self.wall[next]);
@@ -182,8 +182,8 @@ impl Canvas {
     }
 }
 
-/// Returns the fraction of floor outside every 2×2 square of floor cells. Such floor forms corridors, doorways and
-/// alcoves.
+/// Returns the fraction of floor cells that are not in any 2×2 square of floor cells. Such cells form corridors,
+/// doorways and alcoves.
 pub(crate) fn narrow(grid: Grid, is_floor: impl Fn(usize) -> bool) -> f64 {
     let mut wide = vec![false; grid.len()];
     for cell in 0..grid.len() {
@@ -217,7 +217,7 @@ pub(crate) fn emptiness(grid: Grid, is_empty: impl Fn(usize) -> bool) -> f64 {
     largest as f64 / ((grid.columns - 2) * (grid.rows - 2)) as f64
 }
 
-/// Returns the cells farthest from a cell through open cells, at a distance of at least 70% of the maximum.
+/// Returns the cells far from a given cell through open cells: those at a distance of at least 70% of the maximum.
 pub(crate) fn far_from(grid: Grid, from: usize, open: impl Fn(usize) -> bool) -> Vec<usize> {
     let steps = grid.flood(&[from], open);
     let reached = || steps.iter().copied().filter(|&steps| steps != FAR);

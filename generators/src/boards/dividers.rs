@@ -1,4 +1,4 @@
-//! The material of the lines that divide a board: walls with gaps, or the game's own barriers.
+//! The material of a board's dividing lines: walls with gaps, or the game's own barriers.
 
 use super::canvas::{Canvas, Divider};
 use super::draft::Draft;
@@ -41,7 +41,7 @@ pub(crate) fn lay<'k>(
     draft
 }
 
-/// Turns some blocks away from the border into ponds, if the game has a suitable type.
+/// Turns some of the wall blocks away from the border into ponds, if the game has a suitable type.
 fn lay_ponds(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     let Some((piece, _)) = stock.iter().find(|(piece, _)| piece.idiom == Idiom::Obstacle) else { return };
     let blocks = draft.grid.regions(|cell| draft.is_wall(cell));

@@ -8,13 +8,13 @@ use crate::levels::palette::holds_avatar;
 use engine::Level;
 use engine::analysis::Motion;
 
-/// The number of free cells that a patrol needs in its direction of movement.
+/// The number of consecutive free cells that a patrol needs in its direction of movement.
 const LANE: usize = 5;
 /// The minimum distance in steps between the hero and hunters or sources.
 const AWAY: usize = 6;
 /// The maximum fraction of a board's floor that may be narrow.
 const MAX_NARROW: f64 = 0.36;
-/// The maximum fraction of walls within the border. Boards in thick walls all look alike.
+/// The maximum fraction of the area within the border that may be wall. Boards with many walls all look alike.
 const MAX_WALLS: f64 = 0.35;
 
 /// A board under construction or edit.
@@ -90,7 +90,7 @@ impl<'k> Draft<'k> {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Returns the number of consecutive free cells that include a cell, along its column or its row.
+    /// Returns the length of the stretch of open cells through a cell, along its column or its row.
     fn lane(&self, cell: usize, is_vertical: bool) -> usize {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let along = |way: (i32, i32)| {
@@ -103,7 +103,8 @@ impl<'k> Draft<'k> {
         1 + ways.into_iter().map(along).sum::<usize>()
     }
 
-    /// Returns a cell's weight for a piece; 0 if the piece must not be in the cell. The cell itself counts as free.
+    /// Returns the weight of a cell for placing a piece; 0 if the piece must not be in the cell. The cell itself counts
+    /// as free.
     pub(crate) fn fit(&self, piece: &Piece, cell: usize) -> u32 {
         let [up, left, down, right] = self.walls_beside(cell);
         let walls = [up, left, down, right].into_iter().filter(|&wall| wall).count();
@@ -143,7 +144,8 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns a non-gap cell's weight for a piece that belongs in gaps. Such a piece may extend a gap or a wall.
+    /// Returns the weight of a cell outside gaps for a piece that belongs in gaps. Such a piece may extend a gap or a
+    /// wall.
     fn fit_of_barrier(&self, piece: &Piece, cell: usize) -> u32 {
         let own = |next: usize| self.cells[next] == piece.symbol;
         let barred = |next: usize| self.is_solid(next) && !self.grid.on_border(next);
@@ -154,7 +156,7 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns a cell's weight for a piece that moves straight ahead and therefore needs a long lane.
+    /// Returns the weight of a cell for a piece that moves straight ahead and therefore needs a long lane.
     fn fit_of_patrol(&self, piece: &Piece, cell: usize) -> u32 {
         let Motion::Straight(direction) = self.kit.analysis.facts(piece.stype).motion else { return 1 };
         let lane = match (direction.x != 0.0, direction.y != 0.0) {
@@ -171,9 +173,9 @@ impl<'k> Draft<'k> {
         self.grid.flood(&from, |cell| self.is_open(cell))
     }
 
-    /// Returns `true` if the board is sound. A sound board has one hero, and nothing harmful is next to the hero. All
-    /// cells that are not solid are connected, and little of the board is narrow or wall. The numbers of all pieces are in
-    /// their ranges, and there is no lone block of wall.
+    /// Returns `true` if the board is sound. A sound board has one hero with nothing harmful nearby. All cells that are
+    /// not solid are connected, and only a small part of the board is narrow or walled. The number of each piece is in
+    /// its range, and no wall block stands alone.
     pub(crate) fn is_sound(&self) -> bool {
         let Some(hero) = self.hero() else { return false };
         let reach = self.grid.flood(&[hero], |cell| !self.is_solid(cell));
@@ -194,7 +196,7 @@ impl<'k> Draft<'k> {
             && narrow(self.grid, |cell| !self.is_solid(cell)) <= MAX_NARROW
     }
 
-    /// Returns the fraction of walls within the border.
+    /// Returns the fraction of the area within the border that is wall.
     fn walls(&self) -> f64 {
         let (right, bottom) = (self.grid.columns - 1, self.grid.rows - 1);
         let is_within = |cell: &usize| {
@@ -204,8 +206,8 @@ impl<'k> Draft<'k> {
         walls as f64 / ((right - 1) * (bottom - 1)).max(1) as f64
     }
 
-    /// Returns the maximum number of copies of a piece on any board. Barriers drawn as lines may exceed the
-    /// usual maximum.
+    /// Returns the maximum number of copies of a piece on a board. Barriers that form lines may exceed the usual
+    /// maximum.
     pub(crate) fn most(&self, piece: &Piece) -> usize {
         match piece.idiom {
             Idiom::Barrier | Idiom::Crossing | Idiom::Ground | Idiom::Road if !piece.asked => {
@@ -238,7 +240,7 @@ impl<'k> Draft<'k> {
         self.fragments() <= fragments && self.emptiness() <= empty
     }
 
-    /// Returns the number of wall blocks without solid neighbours.
+    /// Returns the number of wall blocks that have no solid neighbours.
     pub(crate) fn lone_blocks(&self) -> usize {
         let is_lone = |&cell: &usize| {
             let mut around = self.grid.around(cell).into_iter();

@@ -30,7 +30,7 @@ pub(crate) enum Edit {
     MoveHero,
 }
 
-/// All edits, with their weights. Pieces change more often than walls, so that a plan stays recognizable.
+/// All edits, with their weights. Pieces are edited more often than walls, so that the plan remains recognizable.
 const EDITS: [(Edit, u32); 10] = [
     (Edit::MovePiece, 9),
     (Edit::Swap, 3),
@@ -52,8 +52,7 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Applies an edit. Returns `None` if the board contains nothing suitable for the edit. The result may be
-    /// unsound.
+    /// Applies an edit. Returns `None` if the board has nothing to which the edit can apply. The result may be unsound.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::MovePiece => self.move_piece(sampler),
@@ -78,7 +77,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Draws a free cell that fits a piece, other than the piece's current cell. Pieces that stand in rows join
+    /// Draws a free cell that fits a piece, other than its current cell. Pieces that stand in rows are placed next to
     /// pieces of the same kind. Half of the moves are short.
     fn draw_cell(&self, symbol: u8, from: Option<usize>, sampler: &mut Sampler) -> Option<usize> {
         let piece = self.kit.piece(symbol)?;

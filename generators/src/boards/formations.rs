@@ -13,9 +13,9 @@ enum Formation {
     Row(i32, i32),
     /// Pairs arranged side by side, row after row.
     Block,
-    /// A zigzag: along a column if `true`, otherwise along a row.
+    /// A zigzag, along a column if `true` and along a row otherwise.
     Zigzag(bool),
-    /// A ring around a cell: first the four sides, then the corners.
+    /// A ring around a cell. The four sides are filled first, then the corners.
     Ring,
     /// Members as far from each other as possible.
     Spread,
@@ -78,7 +78,7 @@ pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut S
             best = (value, cells);
         }
     }
-    // Members that do not fit into the formation stand close to it.
+    // Members for which the formation has no room stand close to it.
     let mut cells = best.1;
     while cells.len() < count {
         let room = (0..grid.len()).filter(|cell| weights[*cell] > 0 && !cells.contains(cell));
@@ -140,7 +140,7 @@ pub(crate) fn patch(
         let beside = |cell: usize, cells: &[usize]| {
             grid.beside(cell).filter(|next| cells.contains(next)).count() as u32
         };
-        // Cells with two neighbours in the patch make it round.
+        // Preferring cells with two neighbours in the patch keeps it round.
         let weights: Vec<u32> = room
             .iter()
             .map(

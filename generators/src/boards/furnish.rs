@@ -1,4 +1,4 @@
-//! Furnishing: places every piece according to its idiom.
+//! Furnishing, which places every piece according to its idiom.
 
 use super::canvas::{Canvas, far_from};
 use super::dividers::{Stock, lay};
@@ -27,7 +27,7 @@ const ORDER: [Idiom; 13] = [
     Idiom::Hazard,
 ];
 
-/// The maximum size of an empty rectangle in a composition, as a fraction of the area within the border.
+/// The maximum size of the largest empty rectangle in a composition, as a fraction of the area within the border.
 const EMPTY: f64 = 0.32;
 /// The maximum number of fragments in a composition; see [`Draft::fragments`].
 const FRAGMENTS: usize = 3;
@@ -51,13 +51,13 @@ pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     Some(draft).filter(|draft| is_composed && draft.is_sound())
 }
 
-/// Draws the numbers of columns and rows for a demand. Boards with higher demands are larger.
+/// Draws the number of columns and rows for a demand. Higher demands get larger boards.
 fn size(demand: u8, sampler: &mut Sampler) -> (usize, usize) {
     let more = usize::from(demand) / 2;
     (sampler.between(10 + more, 13 + more), sampler.between(8, 9 + more))
 }
 
-/// Places the hero in a zone with enough room, next to a wall, and not in a gap or at the landmark.
+/// Places the hero in a zone with enough room, preferably next to a wall and neither in a gap nor at the landmark.
 fn place_hero(draft: &mut Draft<'_>, canvas: &Canvas, sampler: &mut Sampler) -> Option<usize> {
     let zones = draft.grid.regions(|cell| draft.is_free(cell));
     let zones: Vec<&Vec<usize>> = zones.iter().filter(|zone| zone.len() >= 6).collect();
@@ -89,7 +89,7 @@ fn place(
     match piece.idiom {
         Idiom::Ground | Idiom::Hazard | Idiom::Crossing => place_patches(draft, piece, count, sampler),
         Idiom::Barrier | Idiom::Road => {
-            // Barriers without a gap stand in a row, and no more of them are placed than necessary.
+            // Barriers for which no gap is left stand in a row, and no more of them are placed than necessary.
             let missing = piece.counts.0.saturating_sub(draft.count(piece.symbol)).min(count);
             let weights = weights(draft, canvas, hero, piece);
             let cells = arrange(draft.grid, missing, &weights, sampler);
@@ -114,8 +114,8 @@ fn place(
     }
 }
 
-/// Returns all cells' weights for a piece. The weights depend on the piece's idiom, on the side of the dividers to
-/// which the piece belongs, and on the landmark.
+/// Returns the weight of each cell for a piece. The weights depend on the piece's idiom, on the landmark, and on the
+/// side of the dividers to which the piece belongs.
 fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Vec<u32> {
     let near = draft.near();
     let far = far_from(draft.grid, hero, |cell| !draft.is_solid(cell));
@@ -146,7 +146,8 @@ fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Ve
     (0..draft.grid.len()).map(weight).collect()
 }
 
-/// Returns 0 if a pushed piece would be next to its target, so that a single push would suffice. Otherwise returns 1.
+/// Returns 0 if a pushed piece would be next to its target and a single push would therefore suffice. Otherwise returns
+/// 1.
 fn beside_rival(draft: &Draft<'_>, piece: &Piece, cell: usize) -> u32 {
     let is_pair = |one: Idiom, other: Idiom| {
         matches!((one, other), (Idiom::Heavy, Idiom::Spot | Idiom::Heavy) | (Idiom::Spot, Idiom::Heavy))
@@ -175,11 +176,11 @@ fn place_patches(draft: &mut Draft<'_>, piece: &Piece, count: usize, sampler: &m
     }
 }
 
-/// Places more of the pieces whose number is still below the minimum.
+/// Places more copies of the pieces whose number is still below the minimum.
 fn top_up(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     for (piece, _) in stock {
         while draft.count(piece.symbol) < piece.counts.0 {
-            // If the kind stands in rows or patches, the cell should be next to other pieces of the kind.
+            // If pieces of the kind stand in rows or patches, a new piece should be next to another one.
             let grows = matches!(piece.idiom, Idiom::Ground | Idiom::Crossing | Idiom::Hazard);
             let weight = |cell: usize| {
                 let own = WAYS.into_iter().filter_map(|way| draft.grid.shift(cell, way));

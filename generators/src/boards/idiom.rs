@@ -15,7 +15,8 @@ pub enum Idiom {
     /// A type that stands still and interacts with its neighbours, such as soil, fuel, ice or planks. The sprites form
     /// rows and patches.
     Ground,
-    /// A type that breaks under the player, or changes into an obstacle. The sprites belong in gaps, as a road across.
+    /// A type that breaks under the player, or changes into an obstacle. The sprites belong in gaps, where they form a
+    /// road across.
     Road,
     /// A type that permanently stops the player like a wall, without being a wall. The sprites form gulfs, ponds, and
     /// lines crossed by roads.
@@ -24,10 +25,10 @@ pub enum Idiom {
     Hazard,
     /// A type that is collected, touched or guarded. The sprites belong in groups.
     Thing,
-    /// A type that is pushed. The sprites belong on open floor, away from walls.
+    /// A type that the player pushes. The sprites belong on open floor, away from walls.
     Heavy,
-    /// A type onto which an object is pushed or carried. The sprites belong in cells that can be reached from opposite
-    /// sides.
+    /// A type onto which the player pushes or carries an object. The sprites belong in cells that can be reached from
+    /// opposite sides.
     Spot,
     /// A type that moves straight ahead. The sprites belong on long free lanes.
     Patrol,
@@ -43,8 +44,8 @@ pub enum Idiom {
 }
 
 impl Idiom {
-    /// Returns a type's idiom with respect to the initial avatar. Returns `None` for types that boards are not
-    /// furnished with: the avatar, floor, shots, and types without a part in play. Cost: O(encounters × relatives).
+    /// Returns a type's idiom with respect to the initial avatar. Returns `None` for types that are not placed as
+    /// pieces: the avatar, floor, shots, and types that play no part in the game. Cost: O(encounters × relatives).
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Option<Idiom> {
         let start = analysis.start_avatar()?.stype;
         let facts = analysis.facts(stype);
@@ -123,14 +124,14 @@ impl Idiom {
     }
 }
 
-/// Returns `true` if an avatar can push a sprite onto the type so that either is removed or changed. `wanted` decides
-/// whether the push must fill the type.
+/// Returns `true` if an avatar can push a sprite onto the type so that one of the two is removed or changed. `wanted`
+/// receives `true` if the push fills the type, and decides whether such a push counts.
 fn is_partner(analysis: &Analysis, stype: SpriteType, wanted: impl Fn(bool) -> bool) -> bool {
     let sinks = analysis.pushables().iter().flat_map(|pushable| &pushable.sinks);
     sinks.into_iter().any(|sink| sink.partner == stype && wanted(sink.fills))
 }
 
-/// Returns the interactions with the type on either side, each with the type's side.
+/// Returns the interactions in which the type is on either side, each with that side.
 fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encounter, Side)> {
     let first = move |met: &&Encounter| met.second.is_some() && analysis.applies(met.first, stype);
     let second = move |met: &&Encounter| met.second.is_some_and(|written| analysis.applies(written, stype));
@@ -165,7 +166,7 @@ fn acts(analysis: &Analysis, stype: SpriteType) -> bool {
         .any(|(met, side)| met.does(|effect| !stops(effect)) && !(side == Side::Second && ends_mover(met)))
 }
 
-/// Returns `true` if the type turns into a type that spreads or creates other sprites, as fuel does.
+/// Returns `true` if the type can turn into a type that spreads or creates other sprites, as fuel does.
 fn is_fuel(analysis: &Analysis, stype: SpriteType) -> bool {
     let spreads = |to: SpriteType| {
         analysis.game().class(to) == Some(engine::SpriteClass::Spreader)
@@ -183,7 +184,7 @@ fn is_at_stake(analysis: &Analysis, stype: SpriteType) -> bool {
         || analysis.turns(stype).iter().any(|(to, _)| aims.prevent.contains(to))
 }
 
-/// Returns `true` if the type lets the avatar pass until an interaction turns all sprites of the type into obstacles.
+/// Returns `true` if the type lets the avatar pass until an interaction turns all of its sprites into obstacles.
 fn shuts(analysis: &Analysis, stype: SpriteType) -> bool {
     let Some(start) = analysis.start_avatar() else { return false };
     let bars = |to: SpriteType| analysis.touch(start.stype, to).blocks;

@@ -1,4 +1,4 @@
-//! The pieces for a game's boards, with their numbers.
+//! The pieces for a game's boards, and the number of each.
 
 use super::brief::BoardBrief;
 use super::idiom::Idiom;
@@ -7,7 +7,7 @@ use base::Sampler;
 use engine::analysis::{Condition, Harm, Reason};
 use engine::{Analysis, SpriteType};
 
-/// The maximum number of piece kinds per board.
+/// The maximum number of kinds of pieces per board.
 const MAX_KINDS: usize = 8;
 
 /// A kind of piece.
@@ -18,7 +18,7 @@ pub(crate) struct Piece {
     pub(crate) idiom: Idiom,
     /// `true` if the piece harms the player or creates harmful sprites.
     pub(crate) harmful: bool,
-    /// `true` if the brief specified the number of pieces.
+    /// `true` if the brief specifies the number of these pieces.
     pub(crate) asked: bool,
     /// The minimum and maximum number of pieces per board.
     pub(crate) counts: (usize, usize),
@@ -84,7 +84,8 @@ impl<'a> Kit<'a> {
         matches!(self.palette.walk(symbol), Walk::Open | Walk::Pushed)
     }
 
-    /// Returns `true` if a piece opens, fills or disarms other sprites and must therefore be on the hero's side.
+    /// Returns `true` if sprites of the type open, fill or disarm other sprites and must therefore be on the hero's
+    /// side.
     pub(crate) fn is_opener(&self, stype: SpriteType) -> bool {
         let gives = self
             .analysis
@@ -106,8 +107,8 @@ impl<'a> Kit<'a> {
         aims.remove.contains(&stype) || aims.protect.contains(&stype)
     }
 
-    /// Draws the pieces for one board with their numbers. For a game with many types, each board contains only some
-    /// of them.
+    /// Draws the pieces for one board, with the number of each. If a game has many types, a board contains only some of
+    /// them.
     pub(crate) fn draw(&self, sampler: &mut Sampler) -> Vec<(Piece, usize)> {
         let mut pieces: Vec<&Piece> = self.pieces.iter().collect();
         while pieces.len() > MAX_KINDS {
@@ -128,7 +129,7 @@ impl<'a> Kit<'a> {
         drawn
     }
 
-    /// Returns `true` if a win needs the type, or needs another type that requires it.
+    /// Returns `true` if a win needs the type, or if it needs another type that in turn requires this one.
     fn is_required(&self, stype: SpriteType) -> bool {
         let asked = |reason: Reason| match reason {
             Reason::Avatar | Reason::Portal(_) => false,
@@ -141,7 +142,7 @@ impl<'a> Kit<'a> {
             })
     }
 
-    /// Ensures that pushed types and their targets can both occur.
+    /// Ensures that each pushed type can occur together with enough targets.
     fn pair_pushed(&mut self) {
         let remove = &self.analysis.aims().remove;
         for pushable in self.analysis.pushables() {
@@ -157,7 +158,7 @@ impl<'a> Kit<'a> {
         }
     }
 
-    /// Raises the numbers of pushed types and their targets to the numbers needed for a win.
+    /// Raises the numbers of pushed types and their targets to the numbers that a win needs.
     fn match_pushed(&self, drawn: &mut [(Piece, usize)]) {
         let remove = &self.analysis.aims().remove;
         let number = |drawn: &[(Piece, usize)], stype: SpriteType| {
@@ -180,7 +181,7 @@ impl<'a> Kit<'a> {
     }
 }
 
-/// Returns the default numbers of a type on a board, within the limits set by the terminations.
+/// Returns the default range for the number of a type's sprites on a board, within the limits set by the terminations.
 fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (usize, usize) {
     let demand = usize::from(demand);
     let is_aim = analysis.aims().remove.contains(&stype);

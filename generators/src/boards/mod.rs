@@ -1,5 +1,5 @@
-//! A board generator for any game. A board is composed from a plan with a landmark, and furnished according to each
-//! type's idiom.
+//! A board generator for any game. Each board starts from a plan with a landmark and is furnished according to the
+//! idioms of the game's types.
 //!
 //! The idioms are derived from the rules, so nothing in this module depends on names. A [`BoardVariation`] creates
 //! and edits boards. Only playing can show whether a board is good.

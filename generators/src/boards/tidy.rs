@@ -1,15 +1,15 @@
-//! Tidying: variants of a board that each lack a small part, so that a search can determine whether the missing
-//! part matters.
+//! Tidying of boards. It creates variants that each lack a small part, so that a search can determine whether that part
+//! matters.
 
 use super::draft::Draft;
 
-/// The maximum number of cells in a group that is removed as a whole.
+/// The maximum number of cells in a group that can be removed as a whole.
 const SMALL: usize = 2;
 
 impl Draft<'_> {
-    /// Returns the sound boards that lack one small group, from the smallest to the largest group. Such a group
-    /// consists of walls away from the border, or of one piece that exceeds its minimum number and is not counted
-    /// by any goal.
+    /// Returns the sound boards that each lack one small group, ordered from the smallest group to the largest. A group
+    /// consists of walls away from the border, or of one piece that is above its minimum number and does not count
+    /// towards any goal.
     pub(crate) fn tidied(&self) -> Vec<Self> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let walls = self.grid.regions(|cell| self.is_wall(cell));

@@ -11,22 +11,22 @@ use engine::{Action, Analysis, Level, Outcome};
 
 /// The number of compositions to try per board.
 const COMPOSITIONS: u64 = 40;
-/// The number of edits to draw before the board is left as it is.
+/// The number of edits to draw before the board is left unchanged.
 const DRAWS: usize = 40;
-/// The number of mutations to try in search of a board on which the player survives the first ticks.
+/// The number of mutations to try until the player survives the first ticks on the resulting board.
 const MUTATIONS: usize = 6;
 /// The number of ticks that a player who does nothing should survive.
 const GRACE: usize = 10;
-/// The number of fragments always allowed on a board; see [`Draft::fragments`].
+/// The number of fragments that a board may always have; see [`Draft::fragments`].
 const FRAGMENTS: usize = 2;
-/// The size of the largest empty rectangle always allowed on a board, as a fraction of the area within the border.
+/// The size that the largest empty rectangle on a board may always have, as a fraction of the area within the border.
 const EMPTY: f64 = 0.25;
 
 /// Boards for any game, as search candidates. The boards are composed from plans and idioms, and changed by edits.
 ///
-/// All boards have one hero, connected ground that is mostly wide, and the numbers requested by the brief. Nothing
-/// harmful is next to the hero, who survives a few ticks of doing nothing. The boards are not tested for winnability.
-/// Cost: about a millisecond per board, and tens of microseconds per edit.
+/// All boards have one hero, connected ground that is mostly wide, and the numbers of sprites that the brief requests.
+/// Nothing harmful is next to the hero, who survives a few ticks of doing nothing. The boards are not tested for
+/// winnability. Cost: about a millisecond per board, and tens of microseconds per edit.
 #[derive(Clone, Debug)]
 pub struct BoardVariation<'a> {
     kit: Kit<'a>,
@@ -44,8 +44,8 @@ impl<'a> BoardVariation<'a> {
         Ok(BoardVariation { kit })
     }
 
-    /// Returns variants of a board that each lack one small part. A search uses the variants to find parts that do
-    /// not matter.
+    /// Returns variants of a board that each lack one small part. A search uses them to find the parts that do not
+    /// matter.
     pub fn tidied(&self, level: &Level) -> Vec<Level> {
         Draft::of(&self.kit, level).tidied().iter().filter_map(Draft::level).collect()
     }
@@ -63,7 +63,8 @@ impl<'a> BoardVariation<'a> {
         (0..GRACE).all(|_| !matches!(game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_)))
     }
 
-    /// Returns a sound board with one to three more edits. If no edits lead to a sound board, returns the same board.
+    /// Returns a sound board that differs by one to three more edits. If no edits lead to a sound board, returns the
+    /// board unchanged.
     fn edited<'k>(&'k self, draft: Draft<'k>, sampler: &mut Sampler) -> Draft<'k> {
         let mut edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = draft;
@@ -106,8 +107,8 @@ impl Variation for BoardVariation<'_> {
         made.unwrap_or_else(|| parent.clone())
     }
 
-    /// Returns the first board with a part of the second, if both have the same size and the result is sound.
-    /// Otherwise returns an edited first board.
+    /// Returns the first board with a part of the second board, if both have the same size and the result is sound.
+    /// Otherwise, returns an edited version of the first board.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (mut child, other) = (Draft::of(&self.kit, one), Draft::of(&self.kit, two));
         let cut = sampler.between(3, child.grid.columns.max(7) - 4);

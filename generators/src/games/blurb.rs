@@ -65,8 +65,8 @@ pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
     let dangerous = |stype| casting::is_dangerous(analysis, stype);
     let must_go = |stype| analysis.aims().remove.contains(&stype);
     let prey = |stype, role| role == Use::Prey || (role == Use::Enemy && must_go(stype));
-    // The pushed things. With `is_aim`, only the things that must be removed, because all other things stay at
-    // their destinations.
+    // The pushed things. If `is_aim` is `true`, only those that must be removed, because all others stay at their
+    // destinations.
     let pushed = |is_aim: bool| types(&|stype, role| role == Use::Pushable && (!is_aim || must_go(stype)));
     let aims = pushed(true);
     let tasks = [
@@ -95,7 +95,7 @@ pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
     if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
 }
 
-/// Returns the winning conditions in the guide's wording, with names written as in English prose.
+/// Returns the winning conditions as the guide words them, but with names written as ordinary English.
 pub(crate) fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {

@@ -1,4 +1,4 @@
-//! The scene roles that a game's sprite types can play, according to its rules.
+//! The roles in a scene that a game's sprite types can play according to the rules.
 
 use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};
@@ -45,8 +45,8 @@ pub(super) fn roles(analysis: &Analysis, stype: SpriteType) -> &'static [&'stati
     }
 }
 
-/// Returns words for a group of types, one of which has the given use. The words are more general than any
-/// scene's words.
+/// Returns words for a group of types that contains a type with the given use. They are more general than the words of
+/// any scene.
 pub(super) fn group(role: Use) -> &'static [&'static str] {
     match role {
         Use::Avatar => &["figure", "actor"],

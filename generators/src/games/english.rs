@@ -1,4 +1,4 @@
-//! Converts sprite names to English: `seaGlass` becomes "sea glass", "a sea glass" or "sea glasses".
+//! Conversion of sprite names to English: `seaGlass` becomes "sea glass", "a sea glass" or "sea glasses".
 
 pub(crate) use engine::describe::plural;
 use itertools::Itertools;

@@ -1,9 +1,9 @@
-//! The kinds of games, by how they are won.
+//! The kinds of games, distinguished by the way to win.
 
 use base::Sampler;
 use serde::{Deserialize, Serialize};
 
-/// Declares each kind once: its variant, its configuration name, and its title words.
+/// Declares each kind once, with its variant, its configuration name and its title words.
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident $name:literal $title_words:literal;)*) => {
         /// A kind of game.
@@ -46,7 +46,7 @@ kinds! {
     Herding "herding" "Round Drive Muster";
     /// Games in which the player fetches, processes and delivers goods.
     Resource "resource" "Delivery Trade Errand";
-    /// Games in which the player keeps everything in order faster than it falls into disorder.
+    /// Games in which the player restores order faster than things fall into disorder.
     Tending "tending" "Rounds Watch Chore";
     /// Games in which the player stays alive until time is up.
     Survival "survival" "Ordeal Night Siege";
@@ -61,7 +61,7 @@ kinds! {
 }
 
 impl Kind {
-    /// Draws a title word for the hero's task.
+    /// Draws a word for the hero's task, for use in a title.
     pub(crate) fn title_word(self, sampler: &mut Sampler) -> &'static str {
         let title_words: Vec<&'static str> = self.title_words().split(' ').collect();
         title_words[sampler.below(title_words.len())]

@@ -1,5 +1,4 @@
-//! Rules of lock puzzles: doors that use up keys, and planks that carry the avatar only once, so that the order of
-//! moves matters.
+//! Rules of lock puzzles. Doors use up keys, and planks carry the avatar only once, so the order of moves matters.
 
 use engine::Game;
 use std::fmt::Write;
@@ -7,7 +6,7 @@ use std::fmt::Write;
 /// A lock puzzle's rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LockRules {
-    /// The number of key kinds, each with its own doors: up to [`LockRules::KINDS`].
+    /// The number of kinds of keys, each with its own doors. The maximum is [`LockRules::KINDS`].
     kinds: usize,
     /// `true` if there are planks: floor that carries the avatar only once.
     has_planks: bool,
@@ -20,7 +19,7 @@ const fn rules(kinds: usize, has_planks: bool, has_gems: bool) -> LockRules {
 }
 
 impl LockRules {
-    /// The maximum number of key kinds.
+    /// The maximum number of kinds of keys.
     pub const KINDS: usize = 2;
 
     /// All rule sets, without near-duplicates.
@@ -44,7 +43,7 @@ impl LockRules {
     /// The door characters, by kind.
     pub(crate) const DOORS: [char; LockRules::KINDS] = ['d', 'e'];
 
-    /// Returns the number of key kinds.
+    /// Returns the number of kinds of keys.
     pub fn kinds(self) -> usize {
         self.kinds
     }
@@ -120,7 +119,7 @@ mod tests {
     use base::Seed;
     use engine::{Action, Outcome};
 
-    /// A key opens one door, in the tick before the avatar enters the door. A plank carries the avatar once.
+    /// A key opens one door, one tick before the avatar enters it. A plank carries the avatar once.
     #[test]
     fn doors_use_up_keys_and_planks_carry_once() {
         let game = LockRules { kinds: 1, has_planks: true, has_gems: false }.game();

@@ -1,7 +1,7 @@
 //! A game's masked twin: the same rules, with names, characters, colours and comments that carry no meaning.
 //!
-//! A player who has read about games knows the purpose of a `key`. A player of the twin must discover the purpose. The
-//! names `wall` and `avatar` are unchanged, because the engine depends on them.
+//! A player who has read about games knows what a `key` is for. A player of the masked twin must find out. The names
+//! `wall` and `avatar` are unchanged, because the engine depends on them.
 
 use super::surface::{self, Symbols};
 use base::{Sampler, Seed};
@@ -21,7 +21,7 @@ pub struct Masked {
 }
 
 impl Masked {
-    /// Creates the masked twin of any game that compiles. Sprite types are called `t1`, `t2` and so on in random order,
+    /// Creates the masked twin of a game that compiles. Sprite types are called `t1`, `t2` and so on in random order,
     /// level characters are drawn at random, and the game's colours are permuted. Images and comments are removed. All
     /// lines keep their order, so both games play identically, including their state hashes.
     pub fn of(description: &Description, seed: Seed) -> Masked {
@@ -77,7 +77,7 @@ impl Mask {
         pool.truncate(used.len() - needed.len());
         pool.extend(needed);
         sampler.shuffle(&mut pool);
-        // A game with more characters than the pool keeps the last of its characters.
+        // If a game uses more characters than the pool contains, the last ones are kept.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
         let symbols = symbols.chain(unmapped_builtins());
         Mask { names, symbols: Symbols(symbols.collect()), colors: colors.collect() }

@@ -1,7 +1,7 @@
-//! Games as text: their kinds, English nouns, and twins with different names.
+//! Games as texts: their kinds, their English nouns, and twins with different names.
 //!
-//! Games themselves are composed from kernels ([`crate::kernels`]). A rethemed game takes its names from a scene,
-//! according to its types' roles (`casting.rs`). A masked game's names have no meaning.
+//! The games themselves are composed from kernels ([`crate::kernels`]). The names in a rethemed game come from a scene
+//! and fit the roles of the types (`casting.rs`). The names in a masked game have no meaning.
 
 pub(crate) mod blurb;
 mod casting;
@@ -27,7 +27,7 @@ use engine::Game;
 /// A game with its description in prose.
 #[derive(Clone, Debug)]
 pub struct GeneratedGame {
-    /// The rules. The rules are compiled without warnings from their printed text, like the rules of frozen games.
+    /// The rules. Like the rules of frozen games, they were compiled without warnings from their printed text.
     pub rules: Game,
     /// The title, in the terms of the game's scene.
     pub title: String,

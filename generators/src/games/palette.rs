@@ -5,10 +5,10 @@ use crate::kernels::words::scene::Scene;
 /// The characters for types whose letters are all in use.
 const SPARE: &str = "123456789*+=%&@?!^~$";
 
-/// Returns a level character for a type: the first free letter in its name, in lower or upper case, or otherwise a
-/// free symbol.
+/// Returns a level character for a type. The character is the first free letter of its name, in lower or upper case, or
+/// otherwise a free symbol.
 ///
-/// `.`, `w` and `A` are for floor, wall and hero in every game.
+/// In every game, `.`, `w` and `A` represent floor, walls and the hero.
 pub(crate) fn symbol(name: &str, taken: &[char]) -> char {
     free_symbol(name, taken).expect("a game has fewer types than there are characters")
 }

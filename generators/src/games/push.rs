@@ -1,4 +1,4 @@
-//! Rules of puzzles that are won only by pushing: kinds of objects, each with its own destination.
+//! Rules of puzzles that are won only by pushing. There are one or two kinds of objects, each with its own destination.
 
 use crate::levels::FuseSymbols;
 use engine::Game;
@@ -50,7 +50,7 @@ fn settled(kind: usize) -> &'static str {
 }
 
 impl PushRules {
-    /// All rule sets, without near-duplicates. Sets with two kinds of objects come first.
+    /// All rule sets, without near-duplicates. The sets with two kinds of objects come first.
     pub const ALL: [PushRules; 15] = [
         rules(Drain, Some(Mat), false, true),
         rules(Drain, Some(Pit), true, true),
@@ -156,7 +156,7 @@ impl PushRules {
     fn source(self) -> String {
         let (mut sprites, mut mapping, mut rules) = (String::new(), String::new(), String::new());
         let kinds = self.ends.iter().flatten().count();
-        // If other sprites move besides the avatar and the things, `undoAll` would take back their moves after a failed
+        // If sprites other than the avatar and the things move, `undoAll` would also undo their moves after a failed
         // push.
         let stop = if self.has_strays { "stepBack" } else { "undoAll" };
 
@@ -231,7 +231,7 @@ impl PushRules {
             );
             loss = "SpriteCounter stype=pusher limit=0 win=False\n    SpriteCounter stype=keg limit=0 win=False\n    ";
         }
-        // The floor is visible if a thing can be pushed off its mat and onto it.
+        // The floor is visible if things can be pushed off their mats and onto it.
         let hidden = if self.ends.contains(&Some(Mat)) { "" } else { " hidden=True" };
         let ending = match kinds {
             1 => "SpriteCounter stype=crate limit=0 win=True",

@@ -1,8 +1,7 @@
 //! Rethemed games: the same rules under new names, characters, colours and texts.
 //!
-//! A player who knows a game by heart knows the purpose of its `conch`, but must read the rethemed game afresh. The
-//! names of the rethemed game's types depend on their use in the rules (`casting.rs`), and on a scene and words drawn
-//! at random.
+//! A player who knows a game by heart knows the purpose of its `conch`, but must read the rethemed game afresh. Each
+//! type's new name is drawn at random from a scene's words for the type's use in the rules (`casting.rs`).
 
 use super::blurb;
 use super::casting;
@@ -17,9 +16,9 @@ use engine::syntax::{MappingLine, SpriteLine};
 use engine::{Description, Game, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The directions that end the names of types that differ only in direction.
+/// The directions that form the endings of type names that differ only in direction.
 const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
-/// The name prefix of a type that another type turns into at its destination.
+/// The prefix for the name of a type into which another type turns at its destination.
 const SETTLED: &str = "settled";
 /// Adjectives that distinguish types if a scene runs out of words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
@@ -31,7 +30,7 @@ pub struct Rethemed {
     pub description: Description,
     /// The title in the new scene.
     pub title: String,
-    /// A sentence about the player character, the tasks and the dangers.
+    /// A sentence about the hero, the tasks and the dangers.
     pub summary: String,
     /// The instructions for winning, in one sentence.
     pub goal: String,
@@ -46,8 +45,8 @@ impl Rethemed {
     /// `avatar`, on which the engine depends. Images and comments are removed. Costs about two analyses of the game.
     ///
     /// # Errors
-    /// Returns [`GenerateError::Unsuitable`], regardless of the seed, in two cases. Either the game does not compile
-    /// with other names, because it was loaded with the reference's error recovery, or it uses up all characters.
+    /// Returns [`GenerateError::Unsuitable`], whatever the seed, if the game uses up all characters. Returns the same
+    /// error if the game does not compile under other names, because it was loaded with the reference's error recovery.
     pub fn of(game: &Game, seed: Seed) -> Result<Rethemed, GenerateError> {
         Rethemed::retell(game, seed, false)
     }
@@ -101,7 +100,7 @@ impl Rethemed {
     }
 }
 
-/// The stems of the words that must not be reused, in lower case and without plural endings.
+/// The words that must not be reused, as stems: in lower case and without plural endings.
 struct OldNames(BTreeSet<String>);
 
 impl OldNames {
@@ -161,8 +160,8 @@ struct Assigner<'a> {
     sampler: Sampler,
     /// The assignments, by old name.
     assigned: BTreeMap<String, Assignment>,
-    /// The new words for directional types, by old name without the direction; `None` if compounds are named like other
-    /// types.
+    /// The new words for types that differ in direction, by old name without the direction; `None` if compound names
+    /// are not translated.
     stems: Option<BTreeMap<String, String>>,
 }
 
@@ -197,8 +196,8 @@ impl Assigner<'_> {
         self.of_roles(roles)
     }
 
-    /// Returns the new name for a compound name. Directions and states in it are kept, and each type name is replaced
-    /// by that type's new word.
+    /// Returns the translation of a compound name; `None` if it is not a compound. Directions and states are kept, and
+    /// the name of each type is replaced with its new word.
     fn compound(&mut self, name: &str, roles: &[&'static str]) -> Option<String> {
         self.stems.as_ref()?;
         if let Some((stem, way)) = DIRECTIONS.iter().find_map(|way| Some((name.strip_suffix(way)?, way))) {
@@ -229,7 +228,7 @@ impl Assigner<'_> {
         self.analysis.game().sprite_type(name)
     }
 
-    /// Draws one of `words`, with an adjective or a number if all are in use.
+    /// Draws one of `words` that is free. If none is, returns a word with an adjective or a number.
     fn word(&mut self, words: Vec<&'static str>) -> String {
         let free = self.free(words.clone());
         if !free.is_empty() {
@@ -269,7 +268,7 @@ fn names_back(names: &BTreeMap<String, String>) -> BTreeMap<&str, &str> {
     names.iter().map(|(old, new)| (new.as_str(), old.as_str())).collect()
 }
 
-/// Recolours the game with the scene's colours, for every role that has a colour in the scene.
+/// Recolours the game for the scene. Types whose role has a colour in the scene get that colour.
 fn recolor(
     lines: &mut [SpriteLine],
     scene: &'static Scene,
@@ -296,8 +295,9 @@ fn recolor(
     });
 }
 
-/// Assigns new level characters. As in generated games, `.`, `w` and `A` replace the first characters that place only
-/// floor, a wall, and an avatar. Every other character becomes a letter in the name of the type that it places.
+/// Assigns new level characters. As in generated games, `.` replaces the first character that places only floor, `w`
+/// the first that places a wall, and `A` the first that places an avatar. Every other character becomes a letter of the
+/// new name of its type, if one is free.
 fn symbols(analysis: &Analysis, assigned: &BTreeMap<String, Assignment>) -> Result<Symbols, GenerateError> {
     let description = analysis.game().description();
     let lines = description.mapping.iter().map(|line: &MappingLine| {
@@ -339,7 +339,7 @@ fn symbols(analysis: &Analysis, assigned: &BTreeMap<String, Assignment>) -> Resu
             .last()
             .and_then(|name| assigned.get(*name))
             .map_or("x", |assignment| assignment.word.as_str());
-        // Choose a character that differs from the old one, if possible.
+        // If possible, choose a character that differs from the old one.
         let avoided: Vec<char> = taken.iter().copied().chain([*old]).collect();
         let any = || ('!'..='~').find(|symbol| *symbol != '#' && !taken.contains(symbol));
         let new = palette::free_symbol(word, &avoided).or_else(any);

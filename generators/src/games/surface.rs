@@ -27,20 +27,20 @@ fn strip_lines(lines: &mut [SpriteLine]) {
     }
 }
 
-/// Returns the characters that the game's levels can use. The LevelMapping's characters come first, in order. The
-/// unmapped built-in characters follow with a type declared in the game.
+/// Returns the characters that the game's levels can use. The characters of the LevelMapping come first, in order. They
+/// are followed by the unmapped built-in characters whose type the game declares.
 pub(super) fn symbols(description: &Description) -> Vec<char> {
     let own = description.mapping.iter().map(|line| line.symbol);
     own.chain(['w', 'A'].into_iter().filter(|&symbol| builtin(symbol, description).is_some())).collect()
 }
 
-/// Returns the type placed by a built-in character if the game does not map the character.
+/// Returns the type that a built-in character places, if the game declares the type and does not map the character.
 pub(super) fn builtin(symbol: char, description: &Description) -> Option<&'static str> {
     let name = unmapped(symbol, description)?;
     declares_sprites(&description.sprites, name, false).then_some(name)
 }
 
-/// Returns `true` if a line declares the type with a class of its own or inherited from a parent.
+/// Returns `true` if a line declares the type with a class, either its own or one inherited from a parent.
 fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     lines.iter().any(|line| {
         let class = above || line.class.is_some();
@@ -48,8 +48,8 @@ fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     })
 }
 
-/// Returns the built-in characters whose types the file neither maps nor declares with a class, each with its type.
-/// These characters remain unchanged, because a line for them would add a rule.
+/// Returns the built-in characters that the game does not map and whose types it does not declare with a class. Each
+/// comes with its type. These characters remain unchanged, because a line for them would add a rule.
 pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
     let undeclared = |symbol: char| {
         let name = unmapped(symbol, description)?;
@@ -58,8 +58,8 @@ pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item
     ['w', 'A'].into_iter().filter_map(undeclared)
 }
 
-/// Returns the built-in characters that this game maps itself. A twin must map these characters too. Otherwise they
-/// would acquire a built-in meaning that they do not have in this game.
+/// Returns the built-in characters that this game maps itself. A twin must map these characters too, or they would
+/// acquire a built-in meaning that they do not have in this game.
 pub(super) fn mapped_builtins(description: &Description) -> impl Iterator<Item = char> {
     ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }

@@ -1,4 +1,4 @@
-//! Rules of yards. The avatar carries parcels to depots one at a time, between carts that follow signs, before a fuse
+//! Rules of yards. Among carts that follow signs, the avatar carries parcels to depots, one at a time, before a fuse
 //! burns down.
 
 use crate::levels::FuseSymbols;
@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// A yard game's rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct YardRules {
-    /// The number of parcel kinds, each with its own depot: up to [`YardRules::KINDS`].
+    /// The number of kinds of parcels, each with its own depot. The maximum is [`YardRules::KINDS`].
     kinds: usize,
     /// `true` if there are points: signs that reverse their direction whenever a cart has followed them.
     has_points: bool,
@@ -21,7 +21,7 @@ const fn rules(kinds: usize, has_points: bool, has_wagons: bool) -> YardRules {
 }
 
 impl YardRules {
-    /// The maximum number of parcel kinds.
+    /// The maximum number of kinds of parcels.
     pub const KINDS: usize = 2;
 
     /// All rule sets, without near-duplicates.
@@ -57,7 +57,7 @@ impl YardRules {
     /// The number of ticks that a stray takes to move one cell.
     pub(crate) const COOLDOWN: usize = 2;
 
-    /// Returns the number of parcel kinds.
+    /// Returns the number of kinds of parcels.
     pub fn kinds(self) -> usize {
         self.kinds
     }

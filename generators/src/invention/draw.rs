@@ -1,4 +1,4 @@
-//! Draws inventions: the constructive method.
+//! Drawing of inventions, which is the constructive method.
 
 use super::fiction::Noun;
 use super::genome::{Invention, apart};
@@ -16,12 +16,12 @@ const PARTITIONS: usize = 24;
 const CHOICES: u64 = 400;
 /// The maximum number of ports filled by one type.
 const MOST_PORTS: usize = 3;
-/// The number of sound draws from which the draw with the hardest choices, and then the least-used couplings, is
-/// selected.
+/// The number of sound draws to compare. The draw with the hardest choices is preferred and, among equals, the one with
+/// the least-used couplings.
 const PROPOSALS: usize = 6;
-/// The number added to each mechanic's uses, so that the first few uses hardly change the weights.
+/// The number added to the use count of each mechanic, so that the first few uses hardly change the weights.
 const MECHANICS: u64 = 4;
-/// The number added to each ending's uses, so that the first few uses hardly change the weights.
+/// The number added to the use count of each ending, so that the first few uses hardly change the weights.
 const ENDINGS: u64 = 12;
 
 /// The limits on the size of inventions.
@@ -29,7 +29,7 @@ const ENDINGS: u64 = 12;
 pub struct InventionConfig {
     /// The maximum number of mechanics besides the ending. The minimum is 2.
     pub mechanics: usize,
-    /// The parts that draws should contain.
+    /// The parts that each draw should contain.
     pub lead: Lead,
 }
 
@@ -39,8 +39,8 @@ impl Default for InventionConfig {
     }
 }
 
-/// Parts that draws should contain; see [`Census::lead`]. If no sound draw with all of them is found, the mechanic is
-/// given up first, and the ending next.
+/// Parts that draws should contain; see [`Census::lead`]. If no sound draw contains all of them, the mechanic is given
+/// up first, then the ending.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lead {
     /// The name of a mechanic.
@@ -53,8 +53,8 @@ pub struct Lead {
 
 /// The number of games in which each mechanic, ending and coupling was used.
 ///
-/// A draw prefers the least-used mechanics, endings and couplings, so that all of them occur equally often over many
-/// months.
+/// Draws prefer the least-used mechanics, endings and couplings, so that over many months each of them occurs about
+/// equally often.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     uses: BTreeMap<String, u32>,
@@ -91,9 +91,9 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the parts that lead a draw: the danger and the ending of one turn, and the mechanic of another. All of
-    /// them take turns, starting with the least used, and the seed breaks ties. Independently drawn games thus differ if
-    /// their turns differ.
+    /// Returns the parts that lead a draw: the danger and the ending for `turn`, and the mechanic for `mechanic_turn`.
+    /// Parts take turns from least to most used, and the seed breaks ties. Thus, games that are drawn independently
+    /// differ if their turns differ.
     pub fn lead(&self, seed: Seed, turn: usize, mechanic_turn: usize) -> Lead {
         let next = |(kind, part): (&str, u64), turn: usize, is_part: fn(&Mechanic) -> bool| {
             let parts = Mechanic::all().iter().filter(|mechanic| is_part(mechanic));
@@ -131,7 +131,7 @@ impl Census {
     }
 
     /// Returns the weight of a mechanic or ending in a draw. The weight decreases with the square of the number of uses
-    /// relative to the mean, and compensates for rarely sound mechanics.
+    /// relative to the mean. It is higher for mechanics that are rarely sound.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
         let (kind, prior) =
             if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
@@ -145,13 +145,13 @@ impl Census {
 
 /// The number of samples used to measure how often each mechanic is part of a sound draw.
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic that is sound with average frequency.
+/// The rarity of a mechanic whose draws are sound with average frequency.
 const USUAL: u64 = 16;
 /// The maximum rarity of a mechanic.
 const RAREST: u64 = 64;
 
-/// Returns the factor by which a mechanic's weight is increased because it is rarely part of a sound draw. Takes a
-/// third of a second the first time.
+/// Returns the factor by which a mechanic's weight is increased because it is rarely part of a sound draw. The first
+/// call takes a third of a second.
 fn rarity(name: &str) -> u64 {
     static ALL: OnceLock<BTreeMap<&str, u64>> = OnceLock::new();
     let all = ALL.get_or_init(|| {
@@ -177,8 +177,8 @@ fn rarity(name: &str) -> u64 {
     all.get(name).copied().unwrap_or(USUAL)
 }
 
-/// Returns `true` if two games, given by their patterns, share two mechanics, or one mechanic and the ending. To
-/// players, they would seem to be the same game.
+/// Returns `true` if two games, given by their patterns, share two mechanics, or a mechanic and the ending. Players
+/// would take them for the same game.
 pub fn share_idea(one: &[String], two: &[String]) -> bool {
     let is_part = |pattern: &str| pattern.starts_with("mechanic/") || pattern.starts_with("ending/");
     one.iter().filter(|pattern| is_part(pattern) && two.contains(pattern)).count() > 1
@@ -191,7 +191,8 @@ impl Invention {
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let any_mechanic = Lead { mechanic: None, ..config.lead };
         let danger_only = Lead { ending: None, ..any_mechanic };
-        // No draw is sound if the leads fit nothing, or if the census favours mechanics that do not fit together.
+        // All draws may be unsound if the leads do not fit any other part, or if the census favours mechanics that do
+        // not fit together.
         let empty = Census::default();
         let tries = [
             (config.lead, census, "choice"),
@@ -244,7 +245,8 @@ impl Invention {
     }
 }
 
-/// Draws a number of mechanics. Half of the draws have the minimum, because rules must be grasped quickly.
+/// Draws a number of mechanics. Half of the draws have the minimum number, because players must grasp the rules
+/// quickly.
 fn size(config: &InventionConfig, sampler: &mut Sampler) -> usize {
     if sampler.ratio(1, 2) { config.mechanics.max(2) } else { 2 }
 }
@@ -262,8 +264,8 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending by weight. The lead's mechanics come first. At least one mechanic is a danger
-/// that acts by itself.
+/// Draws different mechanics and an ending, by weight. The lead's mechanics come first. At least one mechanic is a
+/// danger that acts by itself.
 fn choose(
     count: usize,
     lead: Lead,
@@ -286,13 +288,13 @@ fn choose(
     Some(chosen)
 }
 
-/// Draws a partition. Pairs of ports are merged until every mechanic is linked, every mover has its motion, and no port
-/// is idle. One more pair may then be merged.
+/// Draws a partition. Merges pairs of ports until every mechanic is linked, every mover has its motion, and no port is
+/// idle. May then merge one more pair.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }
 
-/// Completes a partition with some ports already merged, in the same way as [`partition`].
+/// Completes a partition in which some ports are already merged, in the same way as [`partition`].
 pub(super) fn completed(
     mechanics: &[&'static Mechanic],
     begun: Vec<u8>,
@@ -304,7 +306,7 @@ pub(super) fn completed(
         .filter(|(one, other)| can_merge(&draft.ports[*one], &draft.ports[*other]))
         .collect();
     sampler.shuffle(&mut pairs);
-    // Ports whose type would be useless alone are merged first, then unlinked mechanics.
+    // Ports whose type would be useless on its own are merged first, then the ports of unlinked mechanics.
     for port in 0..draft.ports.len() {
         if draft.is_needy(port) {
             draft.merge_one(&pairs, |one, other| one == port || other == port)?;
@@ -329,7 +331,8 @@ struct Draft {
 }
 
 impl Draft {
-    /// Returns `true` if a port's type would be useless: a mover without motion, or a type that nothing needs.
+    /// Returns `true` if a port's type would be useless, because it is a mover without motion or because nothing needs
+    /// it.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };
@@ -341,7 +344,8 @@ impl Draft {
         all.filter(|(_, other)| **other == class).map(|(port, _)| *port).collect()
     }
 
-    /// Returns a mechanic whose ports do not share a type with any other mechanic; `None` if there is no such mechanic.
+    /// Returns a mechanic to link to the others, preferably one that does not share a type with any other mechanic;
+    /// `None` if all are connected.
     fn lonely(&self, mechanics: usize) -> Option<usize> {
         let types: Vec<Merged> = (0..=u8::MAX)
             .map_while(|class| (usize::from(class) < self.ports.len()).then(|| self.members(class)))
@@ -356,7 +360,7 @@ impl Draft {
         })
     }
 
-    /// Merges the first mergeable wanted pair; `None` if there is no such pair.
+    /// Merges the first wanted pair that can be merged; returns `None` if there is no such pair.
     fn merge_one(
         &mut self,
         pairs: &[(usize, usize)],

@@ -1,4 +1,4 @@
-//! Plays of small boards: outcomes that endings and dangers bring about.
+//! Tests that play small boards to check the outcomes of endings and dangers.
 
 use super::emit;
 use super::genome::{Invention, normal};
@@ -7,8 +7,8 @@ use base::Seed;
 use engine::{Action, Game, Outcome, syntax};
 
 /// Plays a game with the given mechanics, which need not be sound. The rows of the board are separated by spaces. The
-/// characters `a`, `b` and so on place the types in the order of their first ports. Returns the outcome, and the number
-/// of actions that were played.
+/// characters `a`, `b` and so on place the types in the order of their first ports. Returns the outcome and the number
+/// of actions played.
 fn play(names: &[&str], merges: &[(&str, &str)], board: &str, keys: &str) -> (Outcome, usize) {
     let mechanics = mechanics(names);
     let seed = Seed::from_text("play");

@@ -33,17 +33,17 @@ pub struct Invention {
 pub struct Invented {
     /// The game, with its texts.
     pub game: GeneratedGame,
-    /// For each mechanic except the ending, its interactions, by their indices in the rules. The list is empty if the
-    /// mechanic only describes a motion or a class.
+    /// For each mechanic except the ending, the indices of its interactions. The list is empty if the mechanic only
+    /// defines a motion or a class.
     pub mechanics: Vec<Vec<usize>>,
     /// The idiom of each placeable type, by name.
     pub idioms: Vec<(String, Idiom)>,
-    /// For each mechanic except the ending, the types used by no other mechanic. Without these types, the game lacks
+    /// For each mechanic except the ending, the types that no other mechanic uses. Without these types, a board lacks
     /// the mechanic.
     pub own_types: Vec<Vec<String>>,
 }
 
-/// The maximum number of rules that follow from bodies and never apply. Games with more such rules are rejected.
+/// The maximum number of rules that follow from bodies but never apply. Games with more such rules are rejected.
 const MOST_IDLE: usize = 8;
 /// The tick limit of an invention whose wins are not yet known.
 const LONG: u32 = 399;
@@ -81,8 +81,7 @@ impl Invention {
         self.types().map_or(0, |types| soundness::tension(&self.mechanics, &types))
     }
 
-    /// Returns the types that result from merging ports; `None` if there is a type without a body that fits all of
-    /// its ports.
+    /// Returns the types that result from merging ports; `None` if some type has no body that fits all of its ports.
     pub(super) fn types(&self) -> Option<Vec<Merged>> {
         merged(&self.mechanics, &self.partition)
     }
@@ -177,14 +176,15 @@ impl Invention {
         Ok(Invented { game, mechanics: own_lines, idioms, own_types })
     }
 
-    /// Returns the digest of the rules without their texts. Inventions with the same key have the same rules.
+    /// Returns a digest of the rules that ignores the texts and the tick limit. Inventions with the same key have the
+    /// same rules apart from these.
     pub fn key(&self) -> Digest {
         let names = self.mechanics().join(" ");
         Digest::of(format!("{names} {:?} {:?}", self.partition, self.values).as_bytes())
     }
 }
 
-/// Returns a mechanic's interactions, except those that only remove a sprite that was created in a wall.
+/// Returns a mechanic's interactions, except those that only remove sprites created inside walls.
 fn interactions(mechanic: usize, written: &emit::Written) -> Vec<usize> {
     let lines = written.description.interactions.iter().zip(&written.owners).enumerate();
     let own = lines.filter(|(_, (line, owner))| {

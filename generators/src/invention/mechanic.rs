@@ -1,4 +1,4 @@
-//! Mechanics: files with clauses about ports.
+//! Mechanics, which are files with clauses about ports.
 
 use super::fiction::Predicates;
 use crate::games::Kind;
@@ -65,7 +65,7 @@ pub(crate) enum Tag {
     Road,
     /// The mechanic moves the object.
     Moves,
-    /// The player controls where the object goes.
+    /// The player can control where the object goes.
     Led,
     /// The ending needs the object.
     Goal,
@@ -127,7 +127,7 @@ pub(crate) enum Origin {
     State {
         port: String,
         adjective: String,
-        /// `true` if other mechanics' rules about the port also apply to the state.
+        /// `true` if the rules of other mechanics for the port also apply to the state.
         is_still: bool,
     },
     /// A separate object whose noun has the given predicates.
@@ -195,7 +195,7 @@ impl Mechanic {
         })
     }
 
-    /// Returns the endings if `are` is `true`, and all other mechanics otherwise.
+    /// Returns the endings if `are` is `true`; otherwise, returns all other mechanics.
     pub(crate) fn endings(are: bool) -> impl Iterator<Item = &'static Mechanic> {
         Mechanic::all().iter().filter(move |mechanic| mechanic.ending.is_some() == are)
     }

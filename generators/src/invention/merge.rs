@@ -5,7 +5,7 @@ use super::mechanic::{Body, Mechanic, Port, Tag};
 use crate::boards::Idiom;
 use std::collections::BTreeSet;
 
-/// A port in the mechanics of a game, as the index of the mechanic and the index of the port.
+/// A port of a game's mechanics, given by the index of the mechanic and the index of the port in it.
 pub(crate) type PortId = (usize, usize);
 
 /// A type that fills one or more ports.
@@ -35,8 +35,8 @@ impl Merged {
         self.ports.iter().filter(|(_, port)| port.tags.contains(&tag)).count()
     }
 
-    /// Returns `true` if an ending needs the type to exist until the player takes it, so that any other loss of the
-    /// type ends the game.
+    /// Returns `true` if an ending needs the type's sprites to exist until the player takes them, so that any other
+    /// loss of them ends the game.
     pub(crate) fn is_kept_for(&self, ending: usize) -> bool {
         let is_taken = |((mechanic, _), port): &(PortId, &Port)| {
             *mechanic == ending && port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Removed)
@@ -54,7 +54,7 @@ impl Merged {
         self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
     }
 
-    /// Returns the idiom by which boards place the type, as far as the type's ports determine it.
+    /// Returns the idiom for placing the type on boards, as far as the type's ports determine it.
     pub(crate) fn idiom(&self) -> Idiom {
         let is = |words: &[&str]| self.predicates().words().any(|word| words.contains(&word));
         match self.body {

@@ -1,9 +1,9 @@
-//! Invents rules from mechanics with merged ports, so that one sprite type has opposed uses.
+//! Invention of rules from mechanics whose ports are merged, so that one sprite type has opposed uses.
 //!
-//! A [`Mechanic`](mechanic::Mechanic) is a few VGDL clauses about open roles, its *ports*. An [`Invention`]
-//! combines mechanics and an ending, and partitions the ports: the ports in one class are merged into one type.
-//! `soundness.rs` rejects partitions by their tags before anything is compiled. `emit/` writes the rules of the
-//! remaining partitions, and `fiction/` finds nouns that fit everything a type does.
+//! A [`Mechanic`](mechanic::Mechanic) consists of a few VGDL clauses about open roles, which are called its *ports*. An
+//! [`Invention`] combines mechanics and an ending, and partitions the ports: the ports in one class are merged into one
+//! type. `soundness.rs` rejects partitions by their tags before anything is compiled. `emit/` writes the rules of the
+//! remaining partitions, and `fiction/` finds nouns that suit everything that a type does.
 
 mod draw;
 mod emit;

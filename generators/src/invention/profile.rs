@@ -1,5 +1,4 @@
-//! Characteristics of inventions, known before any board exists. An archive uses these characteristics as
-//! axes.
+//! Characteristics of inventions that are known before any board exists. An archive uses them as axes.
 
 use super::genome::Invention;
 use super::mechanic::{Body, Tag};
@@ -9,7 +8,7 @@ use super::soundness::is_opposed;
 base::named_enum! {
     /// The player's most distinctive action on a game's types.
     pub enum Verb {
-        /// The player changes shape, state or way of moving.
+        /// The player changes its shape, state or way of moving.
         Change = "change",
         /// The player pushes objects.
         Push = "push",

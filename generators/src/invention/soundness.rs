@@ -1,4 +1,4 @@
-//! Static conditions on merged ports. Unsound partitions are rejected before rules are written.
+//! Static conditions on merged ports, which reject unsound partitions before any rules are written.
 
 use super::mechanic::{Body, Mechanic, Port, Tag};
 use super::merge::{Merged, PortId};
@@ -9,15 +9,15 @@ const MOST_TYPES: usize = 8;
 /// The reason for rejecting a partition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unsound {
-    /// No body fills all ports of a type.
+    /// No body suits all ports of a type.
     Body,
-    /// A mover has no motion, or has several.
+    /// A mover has no motion or several motions.
     Motion,
-    /// A mechanic does not share a type with any other mechanic.
+    /// The mechanics are not all linked by shared types.
     Unconnected,
     /// A type is produced or carried, but nothing needs it.
     Idle,
-    /// No type has opposed uses at a price.
+    /// No type has opposed uses, so no choice has a price.
     NoTension,
     /// The player cannot influence a mover.
     NoAgency,
@@ -29,7 +29,7 @@ pub enum Unsound {
     TooMany,
     /// More than one mechanic needs its own avatar.
     Avatar,
-    /// No noun fits everything a type does.
+    /// No noun suits everything that a type does.
     Noun,
 }
 
@@ -91,7 +91,7 @@ pub(super) fn are_connected(mechanics: usize, types: &[Merged]) -> bool {
     group.iter().all(|at| *at == group[0])
 }
 
-/// Returns `true` if the type is not needed and does no harm, or if it is merely carried or blocks like a wall.
+/// Returns `true` if the type is neither needed nor harmful, or if it is only carried or only blocks like a wall.
 pub(super) fn is_idle(merged: &Merged) -> bool {
     let matters = [Tag::Tool, Tag::Goal, Tag::Harm, Tag::Bars, Tag::Road, Tag::Foe];
     let wanted = matters.iter().any(|tag| merged.has(*tag));
@@ -103,7 +103,7 @@ pub(super) fn is_idle(merged: &Merged) -> bool {
 }
 
 /// Returns `true` if a goal can be achieved. Either the ending takes or requires the goal's type, or a different
-/// mechanic removes it. A type to be removed must exist from the beginning, and must not be produced.
+/// mechanic removes it. A type that only has to be removed must exist from the beginning and must not be produced.
 fn has_honest_goal(merged: &Merged) -> bool {
     if merged.has(Tag::Goal) && merged.has(Tag::Made) && !merged.has(Tag::Tool) {
         return false;
@@ -117,7 +117,7 @@ fn has_honest_goal(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Returns `true` if different ports of a type place opposed demands on the player, at a price.
+/// Returns `true` if the ports of a type make opposed demands on the player, so that meeting one demand has a price.
 pub(crate) fn is_opposed(merged: &Merged) -> bool {
     let ports = &merged.ports;
     let across = |one: Tag, other: Tag| {
@@ -134,13 +134,13 @@ pub(crate) fn is_opposed(merged: &Merged) -> bool {
         || across(Tag::Removed, Tag::Road)
 }
 
-/// The tension beyond which more makes no difference.
+/// The tension above which a higher value makes no difference.
 const ENOUGH: usize = 12;
 
-/// Returns a score for the hard choices that merged types offer, up to [`ENOUGH`]. A type counts twice if a danger that
-/// acts by itself is also needed, or if two mechanics use up the same supply. It counts once if its uses are opposed
-/// otherwise, or if the player can remove a danger that acts by itself. The score is relative to the number of
-/// mechanics.
+/// Returns a score for the hard choices that merged types offer, up to [`ENOUGH`]. A type counts twice if it is a
+/// danger that acts by itself and is also needed, or if two mechanics use it up. It counts once if its uses are opposed
+/// in a different way, or if it is a danger that acts by itself and the player can remove it. The score is relative to
+/// the number of mechanics.
 pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
     let wants = [Tag::Tool, Tag::Road, Tag::Goal];
     let is_wanted = |port: &Port| wants.iter().any(|want| port.tags.contains(want));
@@ -162,15 +162,15 @@ pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usiz
     (12 * types.iter().map(score).sum::<usize>() / mechanics.len().max(1)).min(ENOUGH)
 }
 
-/// Returns `true` if the player can influence a mover other than by avoiding it. A mover that the player has to bring to
-/// a place must be led.
+/// Returns `true` if the player can influence a mover in a way other than avoiding it. The player must be able to lead
+/// a mover that has to be brought to a place.
 fn is_influenced(merged: &Merged) -> bool {
     let is_affected = [Tag::Removed, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag));
     merged.body != Body::Mover || merged.has(Tag::Led) || (is_affected && !merged.has(Tag::Brought))
 }
 
-/// Returns `true` if a danger that spreads by itself is also a place to which the ending wants things brought. It would
-/// reach them without the player.
+/// Returns `true` if a danger that spreads by itself is also a place to which the ending wants things brought. Such a
+/// danger would reach the things without the player's help.
 fn wins_alone(merged: &Merged, mechanics: usize) -> bool {
     let is_place = |((mechanic, _), port): &(PortId, &Port)| {
         mechanic + 1 == mechanics && port.tags.contains(&Tag::Tool) && !port.tags.contains(&Tag::Spent)
@@ -178,9 +178,9 @@ fn wins_alone(merged: &Merged, mechanics: usize) -> bool {
     merged.has(Tag::Presses) && merged.body != Body::Mover && merged.ports.iter().any(is_place)
 }
 
-/// Returns `true` if a type becomes a danger without any action of the player, and a different mechanic also uses it.
-/// A danger that only the player can bring about is simply avoided. A danger that takes things away without harming the
-/// player counts only if it takes what the ending needs.
+/// Returns `true` if a type becomes a danger without any action of the player, and a different mechanic also uses it. A
+/// danger that only the player can cause is easily avoided. A danger that takes things away without harming the player
+/// counts only if it takes something that the ending needs.
 fn is_pressure(merged: &Merged, types: &[Merged]) -> bool {
     let presses = |port: &Port| port.tags.contains(&Tag::Presses);
     merged.is_joint()
@@ -196,7 +196,7 @@ fn is_pressure(merged: &Merged, types: &[Merged]) -> bool {
         })
 }
 
-/// Counts the types visible to players.
+/// Counts the types that players can see.
 fn visible(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
     let own = mechanics.iter().flat_map(|mechanic| &mechanic.types);
     types.len() + own.filter(|own| own.body != Body::Flash).count()

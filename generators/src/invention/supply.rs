@@ -7,9 +7,9 @@ use base::Seed;
 
 /// The estimated number of rule sets that the inventor can draw.
 ///
-/// A rule set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted, and the
-/// buildable fraction is estimated from uniformly drawn choices. The result is a lower bound on the number of distinct
-/// rules, because most choices can be merged in several ways.
+/// A rule set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted exactly,
+/// and the fraction that can be built is estimated from uniformly drawn choices. The result is a lower bound on the
+/// number of distinct rules, because the ports of most choices can be merged in several ways.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InventionSupply {
     strata: Vec<Stratum>,

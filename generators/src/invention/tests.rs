@@ -53,7 +53,7 @@ fn every_mechanic_can_be_read_and_says_its_rules() {
     }
 }
 
-/// A sound draw's rules might still fail to compile.
+/// The rules of a sound draw might still fail to compile.
 #[test]
 fn every_mechanic_is_part_of_some_sound_draw() {
     let config = InventionConfig::default();

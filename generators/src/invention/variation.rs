@@ -1,4 +1,4 @@
-//! Varies inventions, for searches.
+//! Variation of inventions for searches.
 
 use super::draw::{Census, InventionConfig, completed};
 use super::genome::{Invention, normal};
@@ -24,10 +24,10 @@ enum Change {
 /// The kinds of change with their weights.
 const CHANGES: [(Change, u32); 3] = [(Change::Mechanic, 4), (Change::Merge, 5), (Change::Number, 3)];
 
-/// Inventions as search candidates. Candidates are drawn like constructive inventions, mutated by changing numbers, a
-/// merge or a mechanic, and crossed by combining both parents' mechanics.
+/// Inventions as search candidates. Candidates are drawn like constructive inventions. Mutation changes a mechanic's
+/// numbers, a merge or a whole mechanic. Crossover replaces a mechanic with one from the other parent.
 ///
-/// All candidates build: their rules compile without errors or warnings. Cost: a few milliseconds per mutation.
+/// The rules of every candidate compile without errors or warnings. Cost: a few milliseconds per mutation.
 #[derive(Clone, Debug, Default)]
 pub struct InventionVariation {
     config: InventionConfig,
@@ -68,7 +68,8 @@ impl InventionVariation {
 }
 
 impl Invention {
-    /// Returns the same invention with a different mechanic at an index. That mechanic's ports are merged anew.
+    /// Returns the same invention with a different mechanic at an index. The ports of the new mechanic are merged from
+    /// scratch.
     fn replaced(&self, at: usize, mechanic: &'static Mechanic, sampler: &mut Sampler) -> Option<Invention> {
         let mut mechanics = self.mechanics.clone();
         if mechanics.iter().any(|other| other.name == mechanic.name) {
@@ -137,7 +138,8 @@ mod tests {
     use crate::{Annealing, AnnealingConfig, Evaluation, MapElites, MapElitesConfig, Search};
     use std::collections::{BTreeMap, BTreeSet};
 
-    /// Requests candidates from a search, checks that each is feasible, and returns the number of different candidates.
+    /// Requests candidates from a search, checks that each is sound and can be built, and returns the number of
+    /// different candidates.
     fn check(mut search: impl Search<Candidate = Invention>) -> usize {
         let mut keys = BTreeSet::new();
         for _ in 0..4 {

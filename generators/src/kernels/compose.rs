@@ -1,4 +1,4 @@
-//! Composes a game's rules and texts from a kernel, the kernel's numbers and a scene.
+//! Composition of a game's rules and texts from a kernel, the kernel's numbers and a scene.
 
 use super::course::{self, Board, Space, Traits};
 use super::habits::{Edge, Habits};
@@ -100,8 +100,8 @@ impl Choices<'_> {
     /// Composes the game from the choices.
     ///
     /// # Errors
-    /// Returns an error if the rules cannot be parsed with these numbers, or if the texts mention unknown types.
-    /// Either is a bug in a kernel or a scene.
+    /// Returns an error if the rules cannot be parsed with these numbers, or if the texts mention unknown types. Both
+    /// indicate a bug in a kernel or a scene.
     pub(crate) fn compose(&self) -> Result<Composed, GenerateError> {
         let (description, problems) = syntax::parse(&self.rules());
         if let Some(problem) = problems.first() {
@@ -159,7 +159,7 @@ impl Choices<'_> {
         template::filled(text, &self.kernel.numbers, self.values)
     }
 
-    /// Returns the rules as text, with the kernel's names.
+    /// Returns the rules as text, with the type names of the kernel.
     fn rules(&self) -> String {
         let mut text = self.kernel.text(self.variants, self.values);
         match self.time {
@@ -181,7 +181,7 @@ impl Choices<'_> {
     /// Assigns a unique noun to every type.
     fn cast(&self, sampler: &mut Sampler) -> Result<Nouns, GenerateError> {
         let mut nouns = Nouns::new();
-        // The nouns of roles that no type has except in some state.
+        // The nouns of roles that types have only in some state.
         let mut shared = Nouns::new();
         let mut draw = |role: &str, taken: &Nouns| {
             let mut free = self.scene.nouns(role, &self.kernel.name).unwrap_or_default();
@@ -191,7 +191,7 @@ impl Choices<'_> {
             if free.is_empty() {
                 return Err(GenerateError::Unsuitable(missing()));
             }
-            // Prefer a noun of one word if possible, like the authors of small games: `tarpaulin`, not `canvas sheet`.
+            // Prefer nouns of one word, as authors of small games do: `tarpaulin` rather than `canvas sheet`.
             let is_word = |noun: &&str| !noun.contains(|letter: char| letter.is_ascii_uppercase());
             if free.iter().any(is_word) {
                 free.retain(is_word);
@@ -227,14 +227,14 @@ impl Choices<'_> {
         Palette::new(ground, nouns, self.habits.hero).color_all(lines, &roles);
     }
 
-    /// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for an object in a different state.
+    /// Sets an image for every type: `img=role/noun` or, for a state of another type, `img=role/adjective/noun`.
     fn picture(&self, lines: &mut [SpriteLine], nouns: &Nouns) {
         let roles: BTreeMap<&str, &Casting> =
             self.roles().map(|(stype, role)| (stype.as_str(), role)).collect();
         picture_lines(lines, &roles, nouns);
     }
 
-    /// Writes the LevelMapping: floor, walls, the hero, and then all other types placed by levels.
+    /// Writes the LevelMapping: floor, walls and the hero, followed by all other types that levels place.
     fn map_symbols(
         &self,
         description: &mut Description,
@@ -276,7 +276,7 @@ impl Choices<'_> {
         {
             let symbol = palette::symbol(&names[stype], &taken);
             taken.push(symbol);
-            // A type that no rule moves or removes always covers its floor, so it is placed without floor.
+            // A type that no rule moves or removes would always cover the floor below, so it is placed without floor.
             match mentioned.contains(stype.as_str()) {
                 true => line(symbol, &["floor", stype]),
                 false => line(symbol, &[stype]),
@@ -287,8 +287,8 @@ impl Choices<'_> {
     }
 }
 
-/// Returns the same rules without single-type groups, which result when a form removes types from larger groups. The
-/// type replaces the group. A group with a class or parameters is preserved.
+/// Returns the same rules with each single-type group replaced with its type. Such groups remain when a form removes
+/// the other types. Groups with a class or parameters are preserved.
 fn without_lone_groups(mut description: Description) -> Description {
     let lone = |line: &SpriteLine| line.class.is_none() && line.params.is_empty() && line.children.len() == 1;
     let groups: BTreeMap<String, String> = description
@@ -317,7 +317,7 @@ fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
 }
 
-/// Extracts from the rules the traits that level builders need.
+/// Extracts the traits that level builders need from the rules.
 fn traits(description: &Description) -> Traits {
     let mut traits = Traits::default();
     for (_, line) in description.sprite_lines() {

@@ -1,4 +1,4 @@
-//! Game genomes: the choices from which a kernel game is built.
+//! Genomes of games: the choices from which a game is built.
 
 use super::compose::{Choices, Course};
 use super::habits::{Habits, STILL};
@@ -11,11 +11,11 @@ use base::{Sampler, Seed};
 use engine::{Description, Game, syntax};
 use std::collections::BTreeSet;
 
-/// The assumed length, in ticks, of a game whose levels are still unplayed.
+/// The tick limit of a game whose levels have not been played yet.
 const LONG: u32 = 400;
 
-/// The weight of a form relative to the kernel itself. The weight is greater than 1 because forms were written to vary
-/// the endings of similar kernels.
+/// The weight of a form relative to the kernel itself. It is greater than 1 because the forms were written to vary the
+/// endings of similar kernels.
 const OTHER_FORM: u32 = 2;
 
 /// A game and the maps for its levels.
@@ -57,7 +57,7 @@ impl KernelGenome {
     }
 
     /// Draws a game from the kernel `name`, in a form accepted by `is_open` and a scene that is not in `taken`. If all
-    /// fitting scenes are taken, one is used again. Returns `None` if the kernel does not exist, or if no form is
+    /// fitting scenes are taken, one of them is reused. Returns `None` if the kernel does not exist, or if no form is
     /// open.
     pub fn of_kernel(
         name: &str,
@@ -74,8 +74,8 @@ impl KernelGenome {
         Some(KernelGenome { scene, ..drawn })
     }
 
-    /// Returns games for each form of a kernel, with all of its variants (if any) and without variants; empty if the
-    /// kernel does not exist.
+    /// Returns a game for each form of a kernel without variants and, if the form has variants, a game with all of
+    /// them. Returns no games if the kernel does not exist.
     pub fn all_of(kernel: &str) -> Vec<KernelGenome> {
         let named = Kernel::all().iter().filter(|other| other.name == kernel);
         let mut sampler = Seed::from_text("all").sampler();
@@ -148,7 +148,8 @@ impl KernelGenome {
         &self.scene.name
     }
 
-    /// Returns the kernel that represents the given kernel's family: all kernels that hardly differ from it.
+    /// Returns the kernel that represents the family of the given kernel. A family consists of kernels that hardly
+    /// differ.
     pub fn family(kernel: &str) -> &str {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)
@@ -168,13 +169,13 @@ impl KernelGenome {
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// Returns `true` if the game always has a tick limit, and not only if it would otherwise never end.
+    /// Returns `true` if the game always has a tick limit. Otherwise, it has one only if it might never end without.
     pub fn has_clock(&self) -> bool {
         self.habits.has_clock
     }
 
-    /// Returns the same game with a different tick limit, or without one. A goal of surviving for some ticks is
-    /// unchanged.
+    /// Returns the same game with a different tick limit, or without one. The goal to survive for some ticks is
+    /// unaffected.
     #[must_use]
     pub fn timed(&self, ticks: Option<u32>) -> KernelGenome {
         KernelGenome { time: ticks, ..self.clone() }
@@ -184,7 +185,7 @@ impl KernelGenome {
     ///
     /// # Errors
     /// Returns an error if the rules do not compile, or if the compiler or the analysis warns about them. For example,
-    /// the analysis may warn that the game cannot be won.
+    /// the analysis warns about games that cannot be won.
     pub fn build(&self) -> Result<KernelGame, GenerateError> {
         let composed = self.choices().compose()?;
         let rules = Game::from_source(&syntax::print(&composed.description)).map_err(|problems| {
@@ -227,19 +228,19 @@ impl KernelGenome {
     }
 }
 
-/// Draws one of the given forms; `None` if `forms` is empty.
+/// Draws one of the given forms; `None` if there are none.
 fn drawn(forms: Vec<&'static Kernel>, sampler: &mut Sampler) -> Option<&'static Kernel> {
     let weight = |form: &&Kernel| if form.form.is_some() { OTHER_FORM } else { 1 };
     let weights: Vec<u32> = forms.iter().map(weight).collect();
     Some(forms[sampler.weighted(&weights)?])
 }
 
-/// Builds a game from a kernel file for the file's author. The game uses one of the kernel's forms, with or without
-/// variants, and a scene's nouns or the type names.
+/// Builds a game from a kernel file for its author. The game uses one of the kernel's forms, with or without variants,
+/// and either a scene's nouns or the type names.
 ///
 /// # Errors
 /// Returns the errors in the file or in its rules. Also returns an error if the form does not exist or the scene does
-/// not fit.
+/// not suit the kernel.
 pub fn preview(
     name: &str,
     text: &str,
@@ -281,7 +282,7 @@ pub fn preview(
     Ok((syntax::print(&description), course))
 }
 
-/// Returns `true` if any sprite moves, appears or ends by itself.
+/// Returns `true` if any sprite moves, appears or disappears by itself.
 pub(crate) fn has_movers(description: &Description) -> bool {
     let moves = |class: &str| !STILL.contains(&class) && !class.ends_with("Avatar");
     description

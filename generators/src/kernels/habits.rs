@@ -1,4 +1,4 @@
-//! The author's habits in a game: the points, edges, sizes and clocks that a kernel leaves open.
+//! An author's habits in a game: the points, board edges, sizes and tick limits that a kernel leaves open.
 
 use super::course::Space;
 use base::Seed;
@@ -6,7 +6,7 @@ use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine};
 use std::collections::BTreeMap;
 
-/// The author's habits in a game. Habits affect the game's appearance and scoring, but not its dilemma.
+/// An author's habits in a game. They affect the game's appearance and scoring, but not its dilemma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Habits {
     /// The factor by which all points are multiplied.
@@ -15,7 +15,7 @@ pub(crate) struct Habits {
     pub(crate) space: Space,
     /// The player's colour, unless the floor or walls have the same colour.
     pub(crate) hero: &'static str,
-    /// `true` if the game always has a tick limit, and not only if it would otherwise never end.
+    /// `true` if the game always has a tick limit. Otherwise, it has one only if it might never end without.
     pub(crate) has_clock: bool,
 }
 
@@ -36,7 +36,8 @@ pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door",
 const ENDING: [&str; 2] = ["stepBack", "killSprite"];
 /// The wall effects that may precede an effect in `ENDING`, and that need no partner.
 const TURNING: [&str; 1] = ["reverseDirection"];
-/// The effects that move or create a sprite other than the mover, and so may leave that sprite off the screen.
+/// The effects that can leave a sprite off the screen, because they move or create a sprite other than the one that
+/// moved.
 const ASTRAY: [&str; 6] = ["bounceForward", "undoAll", "spawnAbove", "spawnBelow", "spawnLeft", "spawnRight"];
 
 impl Habits {
@@ -65,8 +66,8 @@ impl Habits {
     }
 }
 
-/// Removes the penalty for the hero's death, because that death ends the game. Penalties for repeatable actions are
-/// the price of those actions, and are preserved.
+/// Removes the penalty for the hero's death, because that death ends the game anyway. A penalty for a repeatable action
+/// is preserved as the price of that action.
 fn drop_penalty_of_death(line: &mut InteractionLine) {
     let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
     if line.first.text == "hero" && line.effect.text.starts_with("kill") {
@@ -77,8 +78,8 @@ fn drop_penalty_of_death(line: &mut InteractionLine) {
 /// Gives the screen edge the effects of walls. Returns `None` without any change if a sprite could then leave the
 /// screen.
 ///
-/// If a type has several edge rules, they apply in turn, and repeat once per rule, while the sprite is beyond the
-/// edge (spec page 03, section 4.4). Therefore only the last rule may return the sprite to the screen.
+/// While a sprite is beyond the edge, its edge rules apply in turn, and this is repeated once per rule (spec page 03,
+/// section 4.4). Only the last rule may therefore return the sprite to the screen.
 fn stop_at_edge(description: &mut Description) -> Option<()> {
     if description.interactions.iter().any(|line| ASTRAY.contains(&line.effect.text.as_str())) {
         return None;
@@ -100,7 +101,7 @@ fn stop_at_edge(description: &mut Description) -> Option<()> {
     }
     let all_stop = stopped.values().all(|&ends| ends)
         && description.sprites.iter().all(|line| all_stop(line, None, false, &stopped));
-    // A sprite that the hero creates at the edge appears beyond it, and has no position to step back to.
+    // A sprite that the hero creates at the edge appears beyond it, so it has no position to step back to.
     let dies = |stype: &str| {
         let of_edge = |line: &&InteractionLine| line.first.text == stype && line.second[0].text == "EOS";
         let mut effects = interactions.iter().filter(of_edge).map(|line| line.effect.text.as_str());
@@ -119,7 +120,8 @@ fn made_by_hero(description: &Description) -> impl Iterator<Item = &str> {
     params.map(|param| param.value.text.as_str())
 }
 
-/// Returns `true` if every moving type has edge rules, either its own or those of a single type above it.
+/// Returns `true` if each moving type has edge rules, given either for the type itself or for exactly one group above
+/// it.
 fn all_stop(line: &SpriteLine, class: Option<&str>, above: bool, stopped: &BTreeMap<String, bool>) -> bool {
     let class = line.class.as_ref().map(|class| class.text.as_str()).or(class);
     let own = stopped.contains_key(&line.name.text);

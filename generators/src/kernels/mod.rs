@@ -1,4 +1,4 @@
-//! Games composed around a dilemma: kernels in scenes, with levels that form a course.
+//! Games composed around a dilemma, from kernels and scenes, with levels that form a course.
 //!
 //! A kernel (`file/kernel.rs`, files in `generators/kernels/`) contains the rules for one dilemma and the maps for
 //! its levels. A scene (`words/scene.rs`, files in `generators/scenes/`) contains the nouns. [`KernelGenome`] draws

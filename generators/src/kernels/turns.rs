@@ -5,7 +5,7 @@ use crate::kernels::file::kernel::Kernel;
 use crate::kernels::words::scene::Scene;
 use base::{Sampler, Seed};
 
-/// The maximum number of turns per kind in a round, regardless of the kind's number of kernels.
+/// The maximum number of turns per kind in a round, however many kernels the kind has.
 const MOST: usize = 3;
 
 /// Returns the kinds that have kernels, in [`Kind::ALL`] order.
@@ -35,7 +35,7 @@ impl Turns {
         kinds.retain(|kernels| !kernels.is_empty());
         let sampler = &mut seed.child("round", 0).sampler();
         let mut order = Vec::new();
-        // Up to `MOST` kernels of each kind per round.
+        // Each round takes up to `MOST` kernels of each kind.
         while kinds.iter().any(|kernels| !kernels.is_empty()) {
             for _ in 0..MOST {
                 let mut again: Vec<&'static Kernel> = kinds.iter_mut().filter_map(Vec::pop).collect();

@@ -1,12 +1,12 @@
-//! Obstacles for path-finding types (`PathChaser`). A game's first line must list these obstacles.
+//! Obstacles for path-finding types (`PathChaser`), which a game's first line must list.
 
 use super::habits::STILL;
 use engine::Description;
 use engine::syntax::{Param, SpriteLine};
 
-/// Lists the obstacles in the game's header. The obstacles are all stationary types that stop every path-finding
-/// type. Obstacles must be stationary because the path map is computed only once, when a level begins (spec page 01,
-/// section 8). Games without path-finding types are unchanged.
+/// Lists the obstacles in the game's header. They are all types that stop every path-finding type and that never move
+/// or disappear, because the path map is computed only once, when a level begins (spec page 01, section 8). Games
+/// without path-finding types are unchanged.
 pub(crate) fn set_obstacles(description: &mut Description) {
     let mut seekers = Vec::new();
     find_seekers(&description.sprites, &[], &mut seekers);
@@ -46,8 +46,8 @@ pub(crate) fn set_obstacles(description: &mut Description) {
     description.header.params.push(Param::new("obs", obstacles));
 }
 
-/// For each path-finding type, adds the names by which rules can refer to it: its own name and the names of the types
-/// above.
+/// Adds, for each path-finding type, the names by which rules can refer to it: its own name and the names of the groups
+/// above it.
 fn find_seekers<'a>(lines: &'a [SpriteLine], above: &[&'a str], seekers: &mut Vec<Vec<&'a str>>) {
     for line in lines {
         let names = [above, &[line.name.text.as_str()]].concat();

@@ -5,7 +5,7 @@ use engine::SpriteType;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The minimum number of columns and rows. With fewer, there is no room inside the border.
+/// The minimum number of columns and rows. Smaller boards have no room inside the border.
 const MIN_SIDE: usize = 4;
 /// The maximum number of columns and rows. A level's cost grows with the square of its number of cells.
 const MAX_SIDE: usize = 64;
@@ -22,8 +22,8 @@ base::with_defaults! {
         /// The difficulty, from 0.0 (easiest) to 1.0 (hardest). Harder levels have more dangers, longer paths and fewer
         /// aids.
         pub difficulty: f64 = 0.5,
-        /// The minimum and maximum fraction of cells that contain more than floor, from 0.0 to 1.0. Met only as far as
-        /// the rules leave room.
+        /// The minimum and maximum fraction of cells that contain more than floor, from 0.0 to 1.0. The limits are met
+        /// only as far as the rules leave room.
         pub cover: Option<(f64, f64)> = None,
         /// The exact numbers of sprites for some types, as far as there is room.
         #[serde(skip)]
@@ -35,7 +35,7 @@ base::with_defaults! {
 }
 
 impl LevelConfig {
-    /// Returns a configuration for levels that resemble the examples in size, cover, numbers of each type, placement
+    /// Returns a configuration for levels that resemble the examples in size, cover, the number of each type, placement
     /// and walls.
     pub fn like(examples: Arc<Examples>) -> LevelConfig {
         let side =
@@ -49,7 +49,7 @@ impl LevelConfig {
         }
     }
 
-    /// Describes the first problem; `None` if the configuration is valid.
+    /// Describes the first problem with the configuration; `None` if the configuration is valid.
     pub(crate) fn problem(&self) -> Option<String> {
         for (name, (low, high)) in [("columns", self.columns), ("rows", self.rows)] {
             if low < MIN_SIDE || low > high || high > MAX_SIDE {

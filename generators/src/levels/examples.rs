@@ -1,4 +1,5 @@
-//! Statistics of a game's own levels that new levels should resemble: sizes, numbers, placement and wall structure.
+//! Statistics of a game's own levels, which new levels should resemble in size, in the number and placement of sprites,
+//! and in the structure of walls.
 
 use super::grid::Grid;
 use super::palette::Palette;
@@ -12,19 +13,19 @@ use engine::{Analysis, Game, Level, SpriteType};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Examples {
     boards: Vec<Sketch>,
-    /// Each type's placement.
+    /// The placement of each type.
     placements: Vec<Placement>,
-    /// The walls' structure.
+    /// The structure of the walls.
     pub(crate) patterns: Patterns,
     /// `true` if the border consists of walls.
     pub(crate) closed: bool,
     /// The number of examples with left-right symmetric walls.
     mirrored: usize,
-    /// The character of empty cells; `None` if it is the character suggested by the rules.
+    /// The character of empty cells; `None` if it is the character that the rules suggest.
     pub(crate) base: Option<u8>,
     /// The number of open cells, by the arrangement of surrounding walls; see [`nook`].
     pub(crate) nooks: [usize; NOOKS],
-    /// The visible types without meaning in the rules.
+    /// The visible types that have no meaning in the rules.
     decor: Vec<SpriteType>,
 }
 
@@ -35,7 +36,7 @@ struct Sketch {
     rows: usize,
     /// The fraction of cells that contain more than floor.
     cover: f64,
-    /// The fraction of walls among the cells inside the border.
+    /// The fraction of the cells inside the border that are walls.
     walls: f64,
     /// The number of sprites per type.
     counts: Vec<usize>,
@@ -47,11 +48,11 @@ struct Sketch {
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) grid: Grid,
-    /// The example whose sprite placement to follow.
+    /// The example whose placement of sprites the level should follow.
     pub(crate) model: usize,
-    /// The fraction of walls among the cells inside the border.
+    /// The fraction of the cells inside the border that should be walls.
     pub(crate) walls: f64,
-    /// For each type, the number of sprites, and the minimum, median and maximum over all examples.
+    /// For each type, the desired number of sprites, and the minimum, median and maximum over all examples.
     pub(crate) counts: Vec<(usize, [usize; 3])>,
     /// The types without meaning in the rules, and the number of sprites of each.
     pub(crate) decor: Vec<(SpriteType, usize)>,
@@ -112,7 +113,7 @@ impl Examples {
         let border = || (0..grid.len()).filter(|&cell| grid.on_border(cell));
         let closed = palette.wall.is_some()
             && border().filter(|&cell| wall[cell]).count() * 10 >= border().count() * 8;
-        // A thing set into the wall around a board makes no hole in the wall.
+        // A thing that is set into the wall around a board does not count as a hole in it.
         let let_in = |cell: usize| closed && grid.on_border(cell) && cells[cell] != palette.base;
         let whole: Vec<bool> = (0..grid.len()).map(|cell| wall[cell] || let_in(cell)).collect();
         self.patterns.learn(grid, &whole);
@@ -160,7 +161,7 @@ impl Examples {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), cover| (low.min(cover), high.max(cover)))
     }
 
-    /// Returns the minimum and maximum fraction of walls among the cells inside the border.
+    /// Returns the minimum and maximum fraction of the cells inside the border that are walls.
     pub fn walls(&self) -> (f64, f64) {
         let walls = self.boards.iter().map(|board| board.walls);
         walls.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), walls| (low.min(walls), high.max(walls)))
@@ -173,8 +174,8 @@ impl Examples {
         (counts[0], counts[counts.len() / 2], counts[counts.len() - 1])
     }
 
-    /// Returns `true` if sprites of type `one` are, on average, lower than sprites of type `two` by a third of the
-    /// board, or if either type does not occur.
+    /// Returns `true` if, on average, sprites of type `one` are at least a third of the board lower than sprites of
+    /// type `two`. Also returns `true` if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
         match (self.placement(one).height(), self.placement(two).height()) {
             (Some(one), Some(two)) => one > two + 1.0 / 3.0,
@@ -182,7 +183,7 @@ impl Examples {
         }
     }
 
-    /// Draws whether to mirror the walls from left to right, with the probability found in the examples.
+    /// Draws `true` if the walls should be mirrored from left to right, with the probability found in the examples.
     pub(crate) fn draw_mirrored(&self, sampler: &mut Sampler) -> bool {
         sampler.ratio(self.mirrored, self.boards.len())
     }
@@ -208,7 +209,7 @@ impl Examples {
             rows: nearest(one.rows, two.rows).clamp(rows.0, rows.1),
         };
         let own = between((one.columns * one.rows) as f64, (two.columns * two.rows) as f64);
-        // A board whose size differs from the examples holds more or fewer sprites in proportion, but at least one.
+        // A board whose size differs from the examples gets proportionally more or fewer sprites, but at least one.
         let scale = if own > 0.0 { grid.len() as f64 / own } else { 1.0 };
         let scale = if (0.8..=1.25).contains(&scale) { 1.0 } else { scale };
         let scaled = |count: usize| (count as f64 * scale + 0.5) as usize;
@@ -245,8 +246,8 @@ fn commonest(analysis: &Analysis, levels: &[Level]) -> Option<u8> {
     symbols.max_by_key(|&symbol| (counts[usize::from(symbol)], std::cmp::Reverse(symbol)))
 }
 
-/// Returns the characters that place only visible floor, except the character for the empty cell, each with the
-/// rarest of its types.
+/// Returns the characters that place only visible floor, each with the rarest of its types. The character for the empty
+/// cell is excluded.
 fn decor(analysis: &Analysis, palette: &Palette, levels: &[Level]) -> Vec<(u8, SpriteType)> {
     let game = analysis.game();
     let seen = |symbol: &u8| levels.iter().any(|level| level.cells().contains(symbol));

@@ -1,4 +1,4 @@
-//! The board as a graph of cells. A cell is its row-major index.
+//! The board as a graph of cells. A cell is given by its row-major index.
 
 use base::Sampler;
 use std::collections::VecDeque;
@@ -34,14 +34,14 @@ impl Grid {
         cell / self.columns
     }
 
-    /// Returns the cell at an offset; `None` if that cell is off the board.
+    /// Returns the cell at an offset from `cell`; `None` if it is off the board.
     pub(crate) fn shift(self, cell: usize, (dx, dy): (i32, i32)) -> Option<usize> {
         let x = usize::try_from(self.x(cell) as i32 + dx).ok().filter(|&x| x < self.columns)?;
         let y = usize::try_from(self.y(cell) as i32 + dy).ok().filter(|&y| y < self.rows)?;
         Some(self.at(x, y))
     }
 
-    /// Returns the on-board cells of a rectangle with the top left corner `cell`, row by row.
+    /// Returns the cells of the rectangle with the top left corner `cell`, row by row. Cells off the board are omitted.
     pub(crate) fn block(self, cell: usize, (columns, rows): (usize, usize)) -> impl Iterator<Item = usize> {
         let (right, bottom) = (self.x(cell) + columns, self.y(cell) + rows);
         let (right, bottom) = (right.min(self.columns), bottom.min(self.rows));
@@ -53,7 +53,7 @@ impl Grid {
         WAYS.into_iter().filter_map(move |way| self.shift(cell, way))
     }
 
-    /// Returns the eight cells surrounding a cell, clockwise from the top; `None` for cells off the board.
+    /// Returns the eight cells around a cell, clockwise from the top; `None` for cells off the board.
     pub(crate) fn around(self, cell: usize) -> [Option<usize>; 8] {
         AROUND.map(|shift| self.shift(cell, shift))
     }
@@ -74,8 +74,8 @@ impl Grid {
         self.x(one).abs_diff(self.x(two)) + self.y(one).abs_diff(self.y(two))
     }
 
-    /// Returns every cell's distance, in steps through open cells, from the nearest cell in `from`. Unreachable cells
-    /// have the distance [`FAR`]. The cells in `from` need not be open. Cost: O(cells).
+    /// Returns the distance of each cell from the nearest cell in `from`, in steps through open cells. Unreachable
+    /// cells have the distance [`FAR`]. The cells in `from` need not be open. Cost: O(cells).
     pub(crate) fn flood(self, from: &[usize], open: impl Fn(usize) -> bool) -> Vec<u32> {
         let mut steps = vec![FAR; self.len()];
         let mut queue: VecDeque<usize> = from.iter().copied().collect();
@@ -154,8 +154,8 @@ impl Grid {
         if beside.len() < 2 {
             return false;
         }
-        // These are runs of open cells around the cell that share a side with it. If there is only one run, all
-        // neighbours are connected around the cell.
+        // Count the runs of open cells around the cell that share a side with it. If there is only one run, all
+        // neighbours are connected without the cell.
         let around = self.around(cell).map(|next| next.is_some_and(&open));
         let runs = (0..8).filter(|&at| around[at] && !around[(at + 7) % 8]).filter(|&at| {
             let run = (0..8).map(|more| (at + more) % 8).take_while(|&place| around[place]);

@@ -6,8 +6,8 @@ use super::symmetry::{LevelSimilarity, Mirror};
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Level};
 
-/// The number of goal sprites, or of fully weighted enemies next to the avatar, at which the measure reaches half of
-/// its maximum.
+/// The number of goal sprites at which their measure is half of its maximum. The same number applies to fully weighted
+/// enemies next to the avatar and their measure.
 const HALF: f64 = 4.0;
 /// The number of steps at which nearness is half of its maximum.
 const NEAR: f64 = 4.0;
@@ -23,23 +23,23 @@ base::named_enum! {
         /// deadly cells do not.
         Openness = "openness",
         /// The distance, in steps, to the farthest cell reachable on foot, as a fraction of the number of reachable
-        /// cells: 1.0 in a single corridor, and small in a hall.
+        /// cells. The value is 1.0 in a single corridor and small in a hall.
         Linearity = "linearity",
         /// The nearness of harm, as s / (s + 4). Each cell with a harmful sprite contributes the mean of two terms to
         /// s. The first term is 4 / (4 + d) for the cell's Manhattan distance d to the avatar. The second term is the
-        /// same for the nearest goal sprite, or for the avatar again if there is no goal sprite. Stationary sprites
-        /// that do not spawn others count half.
+        /// same for the distance to the nearest goal sprite, or for the avatar again if there is no goal sprite.
+        /// Stationary sprites that do not spawn others count half.
         Pressure = "enemy pressure",
         /// The number of goal sprites, as n / (n + 4). Here, n is the number of cells with an exit, or with sprites
         /// that must be removed or protected to win.
         Goals = "goal things",
         /// The left-right symmetry: 1.0 minus the distance ([`LevelSimilarity::distance`]) between the level and its
-        /// mirror image, without a shift.
+        /// mirror image, without other symmetries.
         LeftRight = "left-right symmetry",
         /// The up-down symmetry, computed like the left-right symmetry.
         UpDown = "up-down symmetry",
-        /// The fraction of walls, not counting the border, without an adjacent wall. High if walls are scattered rather
-        /// than built.
+        /// The fraction of walls without an adjacent wall, not counting the border. The value is high if walls are
+        /// scattered rather than built.
         Sprinkle = "sprinkle",
     }
 }
@@ -48,17 +48,17 @@ base::named_enum! {
 #[derive(Clone, Debug)]
 pub struct LevelMeasures {
     similarity: LevelSimilarity,
-    /// Each character's properties.
+    /// The properties of each character.
     marks: Vec<Mark>,
 }
 
-/// The properties of a character used by the measures.
+/// The properties of a character that the measures use.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
     is_avatar: bool,
     is_ground: bool,
     is_wall: bool,
-    /// `true` if the avatar can walk onto the character sooner or later.
+    /// `true` if the avatar can eventually walk onto the character.
     is_open: bool,
     is_goal: bool,
     /// The degree of harm: 1.0 for harmful sprites that move or spawn, 0.5 for other harmful sprites, and 0.0 for
@@ -125,7 +125,7 @@ impl Mark {
     }
 }
 
-/// A level as its cells' properties.
+/// A level as the properties of its cells.
 struct Marked {
     grid: Grid,
     marks: Vec<Mark>,

@@ -1,4 +1,4 @@
-//! The characters for building levels: for the empty cell, for walls, and for every sprite type.
+//! The characters for building levels, which represent the empty cell, walls and every sprite type.
 
 use engine::analysis::{EffectSummary, Harm, Lock, Motion, Removal, Role};
 use engine::{Analysis, SpriteType};
@@ -10,7 +10,7 @@ pub(crate) enum Walk {
     Open,
     /// The avatar cannot enter the cell.
     Blocked,
-    /// The avatar can first shoot the obstacle.
+    /// The avatar can enter the cell after shooting the obstacle.
     Breakable,
     /// The avatar pushes the object in the cell.
     Pushed,
@@ -23,13 +23,13 @@ pub(crate) enum Walk {
 /// The characters for building levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Palette {
-    /// The empty cell's character.
+    /// The character of the empty cell.
     pub(crate) base: u8,
     /// The types in an empty cell.
     pub(crate) ground: Vec<SpriteType>,
     /// The wall character; `None` if the game has no walls that structure a board.
     pub(crate) wall: Option<u8>,
-    /// `true` if a sprite could leave the board without a ring of walls.
+    /// `true` if sprites could leave the board unless a ring of walls surrounds it.
     pub(crate) ring: bool,
     /// The avatars with their characters. These characters place as few other sprites as possible.
     pub(crate) avatars: Vec<(SpriteType, u8)>,
@@ -69,8 +69,8 @@ impl Palette {
         })
     }
 
-    /// Returns `true` if a character can represent the empty cell from the avatar's point of view. The cell must not
-    /// contain anything that is collected, hurts the avatar or blocks it.
+    /// Returns `true` if, for the avatar, a character can represent the empty cell. The cell must not contain anything
+    /// that the avatar collects, that hurts it or that blocks it.
     pub(crate) fn is_bearable(analysis: &Analysis, symbol: u8) -> bool {
         let places = analysis.game().places(symbol);
         let plain = |stype: &SpriteType| match analysis.role(*stype) {
@@ -124,9 +124,9 @@ fn avatars(analysis: &Analysis) -> Option<Vec<(SpriteType, u8)>> {
     Some(list)
 }
 
-/// Returns the empty cell's character. The first choice is floor that the avatar also stands on, and the second is `.`,
-/// if it can be walked on without harm. The third choice is exactly the ground that the avatar stands on, and the last
-/// is a space.
+/// Returns the character of the empty cell. The first choice is floor that the avatar also stands on, and the second is
+/// `.`, if the avatar can walk on it without harm. The third choice is exactly the ground that the avatar stands on,
+/// and the last is a space.
 fn base(analysis: &Analysis, avatar: SpriteType, avatar_symbol: u8) -> u8 {
     let game = analysis.game();
     let under: Vec<SpriteType> =
@@ -170,7 +170,7 @@ pub(crate) fn holds_avatar(analysis: &Analysis, symbol: u8) -> bool {
     game.places(symbol).iter().any(|&stype| game.class(stype).is_some_and(|class| class.is_avatar()))
 }
 
-/// Returns the character for a type with the fewest other sprites, not counting the ground.
+/// Returns the character that places a type with the fewest other sprites, not counting the ground.
 fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option<u8> {
     let cost = |symbol: u8| {
         let places = analysis.game().places(symbol);
@@ -197,8 +197,8 @@ fn best(analysis: &Analysis, stype: SpriteType, ground: &[SpriteType]) -> Option
     symbols.filter(|&symbol| !holds_avatar(analysis, symbol)).min_by_key(|&symbol| cost(symbol))
 }
 
-/// Returns the type that structures boards: among the types that always block the avatar, the type that stops the most
-/// other types.
+/// Returns the type that structures boards. Among the types that always block the avatar, it is the one that stops the
+/// most other types.
 fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     let moves = |stype: &SpriteType| {
         let facts = analysis.facts(*stype);
@@ -207,7 +207,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     };
     let movers: Vec<SpriteType> = analysis.game().sprite_types().filter(moves).collect();
     let candidates = analysis.game().sprite_types().filter(|&stype| {
-        // The registry's `wall` type counts as a wall even if it can be shot or kills.
+        // The registry's `wall` type counts as a wall even if it can be shot away or kills.
         let named = stype == SpriteType(0) && matches!(analysis.role(stype), Role::Breakable | Role::Hazard);
         symbols[stype.index()].is_some() && (analysis.role(stype) == Role::Wall || named)
     });
@@ -221,7 +221,7 @@ fn wall(analysis: &Analysis, symbols: &[Option<u8>]) -> Option<SpriteType> {
     candidates.max_by_key(|&stype| (strength(stype), stype == SpriteType(0), std::cmp::Reverse(stype)))
 }
 
-/// Returns `true` if there is a moving or pushed sprite without a rule for reaching the screen edge.
+/// Returns `true` if some moving or pushed sprite has no rule for reaching the edge of the screen.
 fn leaves_board(analysis: &Analysis) -> bool {
     analysis.game().sprite_types().any(|stype| {
         let facts = analysis.facts(stype);

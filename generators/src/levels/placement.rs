@@ -1,4 +1,4 @@
-//! Placement of one type's sprites in examples: board region, nook, neighbours and order.
+//! The placement of one type's sprites in the examples: board region, nook, neighbours and order.
 
 use super::grid::{Grid, WAYS};
 use engine::{Game, SpriteType};
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 const BANDS: usize = 5;
 /// A cell's neutral weight.
 pub(crate) const USUAL: u32 = 16;
-/// The number of wall arrangements next to a cell; see [`nook`].
+/// The number of classes of wall arrangements next to a cell; see [`nook`].
 pub(crate) const NOOKS: usize = 6;
 
 /// Statistics on the positions of one type's sprites.
@@ -16,16 +16,16 @@ pub(crate) const NOOKS: usize = 6;
 pub(crate) struct Placement {
     seen: usize,
     bands: Bands,
-    /// The number of sprites per band, for each example separately.
+    /// The number of sprites in each band, for each example separately.
     each: Vec<Bands>,
     /// The number of sprites on the border of closed boards, by side, in [`WAYS`] order.
     sides: [usize; 4],
     nooks: [usize; NOOKS],
     /// The number of neighbours, by direction (an index into [`WAYS`]) and type.
     beside: BTreeMap<(usize, SpriteType), usize>,
-    /// The keys of `beside` that almost always occur next to the type.
+    /// The directions and types, as in `beside`, that almost always occur next to the type.
     companions: Vec<(usize, SpriteType)>,
-    /// The number of sprites whose left-right mirrored cell contains a sprite of the same type.
+    /// The number of sprites for which the cell mirrored from left to right contains a sprite of the same type.
     mirrored: usize,
     /// The number of sprites next to a sprite of the same type.
     grouped: usize,
@@ -77,7 +77,7 @@ impl Scene<'_> {
 }
 
 impl Placement {
-    /// Records all of a type's sprites in one example.
+    /// Records all sprites of a type in one example.
     pub(crate) fn see(&mut self, scene: &Scene<'_>, stype: SpriteType) {
         let grid = scene.grid;
         let cells: Vec<usize> = (0..grid.len()).filter(|&cell| scene.holds(cell, stype)).collect();
@@ -109,8 +109,8 @@ impl Placement {
         self.each.push(own);
     }
 
-    /// Derives the companions, after all examples have been recorded. `total` counts the sprites of a type in all
-    /// `cells`, and `plain` selects types that occur everywhere.
+    /// Derives the companions. Must be called after all examples have been recorded. `total` counts the sprites of a
+    /// type in all `cells`, and `plain` selects types that occur everywhere.
     pub(crate) fn conclude(
         &mut self,
         cells: usize,
@@ -119,8 +119,8 @@ impl Placement {
     ) {
         let seen = self.seen;
         let telling = |&(&(_, other), &count): &(&(usize, SpriteType), &usize)| {
-            // The companion must occur at least four times out of five, and much more often than expected at random,
-            // with a larger margin for few samples.
+            // A companion must occur at least four times out of five, and much more often than expected by chance. The
+            // margin is larger if there are few samples.
             let lift = if seen >= 3 { 3 } else { 10 };
             count * 5 >= seen * 4 && count * cells >= lift * total(other) * seen && !plain(other)
         };
@@ -147,7 +147,7 @@ impl Placement {
         if self.seen == 0 {
             return USUAL;
         }
-        // The positions of different things are often correlated, so the example `model` counts most, and all examples
+        // The positions of different types are often correlated, so the example `model` counts most, and the others
         // count a little.
         let own = self.each[model];
         let place = if own == Bands::default() { self.bands } else { own }.weigh(grid, cell) * 0.7
@@ -160,14 +160,15 @@ impl Placement {
         ((f64::from(USUAL) * place * lift) as u32).max(1)
     }
 
-    /// Returns the average vertical position of this type's sprites, from 0.0 at the top to 1.0 at the bottom; `None`
-    /// if there are no such sprites.
+    /// Returns the average vertical position of this type's sprites, from 0.0 (top) to 1.0 (bottom); `None` if there
+    /// are no such sprites.
     pub(crate) fn height(&self) -> Option<f64> {
         let sum: usize = self.bands.down.iter().enumerate().map(|(band, count)| band * count).sum();
         (self.seen > 0).then(|| sum as f64 / (self.seen * (BANDS - 1)) as f64)
     }
 
-    /// Returns the number of this type's sprites in the walls on the cell's side of the board.
+    /// Returns the number of this type's sprites that are set into the surrounding wall on the same side of the board
+    /// as the cell.
     pub(crate) fn on_border(&self, grid: Grid, cell: usize) -> u32 {
         side(grid, cell).map_or(0, |side| self.sides[side] as u32)
     }
@@ -182,7 +183,7 @@ impl Placement {
         self.nooks[NICHE] * 10 >= self.seen * 8 && self.seen > 0
     }
 
-    /// Returns `true` if this type's sprites stand in left-right pairs.
+    /// Returns `true` if sprites of this type stand in pairs that mirror each other from left to right.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.mirrored >= 4 && self.mirrored * 10 >= self.seen * 7
     }
@@ -202,7 +203,7 @@ fn band(at: usize, of: usize) -> usize {
     (at * BANDS / of.max(1)).min(BANDS - 1)
 }
 
-/// Returns a cell's side of the border, as an index into [`WAYS`].
+/// Returns the side of the border on which a cell lies, as an index into [`WAYS`].
 fn side(grid: Grid, cell: usize) -> Option<usize> {
     WAYS.into_iter().position(|way| grid.shift(cell, way).is_none())
 }
@@ -210,8 +211,8 @@ fn side(grid: Grid, cell: usize) -> Option<usize> {
 /// The index of niches among the nooks.
 pub(crate) const NICHE: usize = 4;
 
-/// Classifies the number and arrangement of walls, or edges, next to a cell. The classes are none, one, two opposite,
-/// two at a corner, three, and four.
+/// Classifies the number and arrangement of walls next to a cell; board edges count as walls. The classes are none,
+/// one, two on opposite sides, two at a corner, three, and four.
 pub(crate) fn nook(grid: Grid, wall: &[bool], cell: usize) -> usize {
     let [up, left, down, right] = WAYS.map(|way| grid.shift(cell, way).is_none_or(|next| wall[next]));
     match u8::from(up) + u8::from(left) + u8::from(down) + u8::from(right) {

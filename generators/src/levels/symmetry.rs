@@ -1,4 +1,4 @@
-//! Equality and distance of levels, up to symmetry.
+//! Equality of levels, and distances between them, up to symmetry.
 
 use super::grid::Grid;
 use super::palette::Palette;
@@ -15,14 +15,14 @@ const OUTSIDE: u8 = 0;
 
 /// Compares a game's levels up to rotations and reflections.
 ///
-/// Rules may distinguish directions, for example if objects fall or drive from left to right. A level's image may
-/// therefore play differently, but still does not count as a new level.
+/// Rules may distinguish directions, for example if objects fall or drive from left to right. The image of a level may
+/// therefore play differently, but it still does not count as a new level.
 #[derive(Clone, Debug)]
 pub struct LevelSimilarity {
     /// For each character, the first character that places the same sprites.
     class: [u8; 128],
-    /// For each character, the index of the set of sprites that it places. The index does not depend on the choice of
-    /// characters.
+    /// For each character, the index of the set of sprites that it places. The index does not depend on which
+    /// characters the game uses.
     rank: [u8; 128],
     /// For each character, the weight of a cell in which two levels differ.
     weight: [u32; 128],
@@ -49,7 +49,7 @@ impl LevelSimilarity {
             let shapes = |role| matches!(role, Role::Wall | Role::Breakable | Role::Soil);
             known || places(symbol).iter().any(|&stype| shapes(analysis.role(stype)))
         });
-        // Spaces and characters that place nothing are equal, but differ from the outside.
+        // Spaces and characters that place nothing are equal to each other, but differ from cells outside a level.
         let class = symbols.map(|symbol| {
             let same = (b' '..=symbol).find(|&other| places(other) == places(symbol));
             same.unwrap_or(symbol)
@@ -91,22 +91,22 @@ impl LevelSimilarity {
     ///   Σ weight of the cells that differ  /  Σ weight of all cells
     /// ```
     ///
-    /// with both levels aligned at the top left. A cell weighs 0 if it is ground in both levels, or the same border
-    /// wall in both. A cell weighs 1 if it is wall, soil or ground in both levels, or lies outside one level. Any other
-    /// cell weighs 2. Two mostly empty levels are therefore similar only if their few objects are similar. The distance
-    /// is symmetric in its arguments. Cost: O(cells).
+    /// with both levels aligned at the top left. The weight of a cell is 0 if it is ground in both levels, or the same
+    /// border wall in both. The weight is 1 if the cell is wall, soil or ground in both levels, or lies outside one
+    /// level. Any other cell has weight 2. Two mostly empty levels are therefore similar only if their few objects are
+    /// similar. The distance is symmetric in its arguments. Cost: O(cells).
     pub fn distance(&self, one: &Level, two: &Level) -> f64 {
         let (one, two) = (self.classes(one), self.classes(two));
         let turned = |fixed: &(Grid, Vec<u8>), (grid, cells): &(Grid, Vec<u8>)| {
             let distances = (0..SYMMETRIES).map(|at| self.share(fixed, &image(*grid, cells, at)));
             distances.fold(1.0, f64::min)
         };
-        // The images of a level that is not square have swapped sides, so both directions are compared.
+        // Images of a level that is not square may have swapped sides, so both directions are compared.
         turned(&one, &two).min(turned(&two, &one))
     }
 
-    /// Returns the similarity of a level to its left-right or up-down mirror image: 1.0 minus their distance, without
-    /// further symmetries. Cost: O(cells).
+    /// Returns the similarity of a level to its left-right or up-down mirror image, which is 1.0 minus their distance
+    /// without further symmetries. Cost: O(cells).
     pub(super) fn mirror(&self, level: &Level, symmetry: Mirror) -> f64 {
         let (grid, cells) = self.classes(level);
         1.0 - self.share(&(grid, cells.clone()), &image(grid, &cells, symmetry as usize))
@@ -117,7 +117,7 @@ impl LevelSimilarity {
         (Grid { columns: level.columns(), rows: level.rows() }, cells)
     }
 
-    /// Returns the weighted fraction of differing cells.
+    /// Returns the weighted fraction of cells that differ.
     fn share(&self, (grid, one): &(Grid, Vec<u8>), (other_grid, two): &(Grid, Vec<u8>)) -> f64 {
         let (columns, rows) = (grid.columns.max(other_grid.columns), grid.rows.max(other_grid.rows));
         let at = |grid: &Grid, cells: &[u8], x: usize, y: usize| match x < grid.columns && y < grid.rows {

@@ -17,13 +17,13 @@ use rayon::prelude::*;
 /// Passes if every executed interaction matters: an outcome or score changes if its consequences are disabled
 /// but its random draws are preserved ([`Game::without`]).
 ///
-/// There are three tests, from cheapest to most expensive. First, recorded episodes that execute the rule are
-/// replayed without it. Second, futures from just before the rule's execution are played with and without the
-/// rule, with the same seeds. Third, a searching player plays an episode without the rule, which is then
-/// replayed with it.
+/// There are three tests, from cheapest to most expensive. First, recorded episodes that execute the rule are replayed
+/// without it. Second, futures from just before the rule's execution are played with and without the rule, with the
+/// same seeds. Third, a searching player plays an episode without the rule, and the episode is then replayed with the
+/// rule.
 ///
-/// One change suffices for a pass. If no test shows a change, the verdict is unknown. The criterion fails
-/// only if a rule is proven idle: on every level, all sequences of actions have the same outcome and score
+/// One change suffices for a pass. If no test shows a change, the verdict is unknown. The criterion fails only if a
+/// rule is proven idle, which means that on every level all sequences of actions have the same outcome and score
 /// without it.
 ///
 /// Rules on walls and the screen edge are guards. Guards are reported but never fail, because the sprites
@@ -31,7 +31,7 @@ use rayon::prelude::*;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RulesMatter {
     /// The number of forward-model calls per interaction. A proof that an interaction is idle may take up to a quarter
-    /// more.
+    /// of this number in addition.
     calls: u64,
     /// The maximum total number of forward-model calls for all interactions; `None` for no limit. Tests beyond the
     /// limit are skipped.
@@ -48,14 +48,14 @@ const DECISION: Budget = Budget(300);
 const LOOK_AHEAD: u32 = 20;
 /// The maximum number of ticks per episode of the searching player.
 const PLAY: usize = 400;
-/// The divisor by which the budget for proving a rule idle is derived from the rule's calls.
+/// The divisor of a rule's calls that gives the budget for proving the rule idle.
 const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.
 enum Effect {
     /// Without the interaction, an outcome or a score changes.
     Matters,
-    /// No test shows a change in outcome or score. `differs` is `true` if a test shows different sprites.
+    /// No test shows a change in outcome or score. `differs` is `true` if a test shows a difference in the sprites.
     Unshown { differs: bool },
     /// All episodes are proven to have the same outcome and score. Contains the number of states in the
     /// proof.
@@ -265,8 +265,8 @@ impl Futures<'_> {
     /// Returns `true` if a future ends differently without the rule, `true` if the board ever looks
     /// different, and the number of calls.
     fn compare(&self, seed: Seed) -> (bool, bool, u64) {
-        // A state contains predictions made for its own game, so each game replays the prefix to get a state
-        // of its own.
+        // A state contains predictions for its own game, so each of the two games replays the prefix to obtain its own
+        // state.
         let before = [self.with, self.without].map(|game| {
             let mut state = game.start(self.recorded.level, self.episode.seed);
             self.episode.actions[..self.tick].iter().for_each(|&action| {
@@ -287,7 +287,7 @@ impl Futures<'_> {
                 break;
             }
         }
-        // Holding each key, or no key, shows the effect of a rule on an avatar that moves on or waits.
+        // Holding a key, or no key, shows the effect of the rule on an avatar that keeps moving or waits.
         let held = self.held_keys(&before[0]);
         for number in 0..FUTURES + held.len() as u64 {
             let key = held.get(number as usize).copied();
@@ -369,7 +369,7 @@ mod tests {
     #[test]
     fn ineffective_rules_are_idle_and_visible_differences_are_unknown() {
         let [used, matter] = findings(GAME);
-        // The level lacks the dew with which the rule would make a difference.
+        // The level lacks the dew that would give the rule an effect.
         let Verdict::Fail { reason, .. } = &used.verdict else { panic!("{used:?}") };
         assert_eq!(reason.0, "`dew` never appears");
         let Verdict::Fail { reason, .. } = &matter.verdict else { panic!("{matter:?}") };

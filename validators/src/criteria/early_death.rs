@@ -13,10 +13,10 @@ use std::collections::BTreeSet;
 
 /// Passes if the player can survive the first ticks.
 ///
-/// On a deterministic level, all action sequences are searched tick by tick, counting equivalent states once.
-/// If no state survives, death is proven to be unavoidable. In a stochastic game, the search is repeated for
-/// several known seeds: if even a player who knows the random draws dies, death is unavoidable. It is
-/// reported if doing nothing is deadly, but this is not a failure.
+/// On a deterministic level, all action sequences are searched tick by tick, counting equivalent states once. If no
+/// state survives, death is proven to be unavoidable. In a stochastic game, the search is repeated for several known
+/// seeds. If even a player who knows the random draws dies, death is unavoidable. The finding also reports if doing
+/// nothing is deadly, but this is not a failure.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEarlyDeath {
     /// The number of ticks to survive.
@@ -29,8 +29,7 @@ pub struct NoEarlyDeath {
     pub share: f64,
 }
 
-/// The maximum number of states to expand per tick. If there are more, the verdict is unknown instead of a
-/// failure.
+/// The maximum number of states to expand per tick. If there are more, a failure becomes unknown.
 const MAX_STATES: usize = 2000;
 /// The number of random episodes to try before a search.
 const RANDOM_PLAYS: u64 = 24;
@@ -137,7 +136,7 @@ impl NoEarlyDeath {
         Some(Evidence { text, board: None, ..cause })
     }
 
-    /// Searches for a way to survive with one seed: by doing nothing, by random actions, and finally by an exhaustive
+    /// Searches for a way to survive with one seed. Tries doing nothing, then random actions, and finally an exhaustive
     /// search.
     fn survival(&self, case: Case<'_>, seed: &SeedPath) -> Survival {
         let idle = self.play_start(case, seed, |_| Action::Nil);

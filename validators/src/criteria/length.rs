@@ -21,8 +21,8 @@ pub(crate) struct LengthWithin {
 /// The start of the reason for a win that takes too long. A shorter win may exist.
 const TOO_LONG: &str = "the shortest win found takes";
 
-/// Turns a failure into an unknown verdict if a shorter win might exist because the search did not prove its
-/// win to be the shortest.
+/// Changes a failure to an unknown verdict if the search did not prove its win to be the shortest, because a shorter
+/// win might exist.
 pub(crate) fn without_proof(finding: &mut Finding, report: &Report) {
     let Verdict::Fail { reason, .. } = &finding.verdict else { return };
     let searched = report.finding(Criterion::Winnable);

@@ -1,6 +1,6 @@
 //! The judges for all criteria other than gates.
 //!
-//! A criterion's module contains its judge, the constant `QUESTION`, and a function `judge` that creates the judge
+//! The module of a criterion contains its judge, the constant `QUESTION`, and a function `judge` that creates the judge
 //! for a [`Setting`].
 
 mod ablation;

@@ -10,8 +10,8 @@ use crate::verdict::{Finding, Verdict};
 use agents::{Budget, DoNothing, Limits, Play, play};
 use engine::{Episode, Outcome};
 
-/// Passes if an idle player never wins with any of several random seeds (or, on a deterministic level, with
-/// one seed).
+/// Passes if an idle player does not win with any of several random seeds. On a deterministic level, one seed is
+/// enough.
 #[derive(Clone, Copy, Debug)]
 pub struct NotIdle {
     /// The number of episodes to play.
@@ -52,8 +52,8 @@ pub(crate) struct Failure {
     pub(crate) witness: Episode,
 }
 
-/// Returns the finding for episodes of at most `ticks` ticks. If there is no failure, any episode that was
-/// stopped early makes the verdict unknown.
+/// Returns the finding for episodes of at most `ticks` ticks. Without a failure, any episode that was stopped early
+/// makes the verdict unknown.
 pub(crate) fn finding(case: Case<'_>, played: Vec<Play>, ticks: usize, failure: Option<Failure>) -> Finding {
     let finding = match failure {
         None => broken_off(&played, ticks).unwrap_or_else(|| Finding::from(Verdict::pass())),

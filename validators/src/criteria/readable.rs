@@ -12,9 +12,9 @@ use itertools::Itertools;
 
 /// Passes if every visible type has a character of its own and nothing decisive is hidden.
 ///
-/// A type that counts towards a win or a loss, or that affects the avatar, fails if it is `hidden`, or if the
-/// level places it only under sprites that cover it. A hidden type that only creates other sprites (a
-/// spawner) is reported, but is not a failure. Covered types that do not decide anything are scenery.
+/// A type is decisive if it counts towards a win or a loss, or if it affects the avatar. It is a failure if such a type
+/// is `hidden`, or if the level places it only under sprites that cover it. A hidden type that only creates other
+/// sprites (a spawner) is reported, but is not a failure. Covered types that are not decisive are scenery.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Readable;
 
@@ -74,7 +74,7 @@ fn decides(analysis: &Analysis, stype: SpriteType) -> bool {
     counted || analysis.avatars().iter().any(|avatar| meets(avatar.stype))
 }
 
-/// Returns the types that no character shows, because the level always covers them with a different type.
+/// Returns evidence of the types that no character shows because the level always covers them with another type.
 fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
     let game = analysis.game();
     let visible = |stype: &&SpriteType| !analysis.facts(**stype).hidden;
@@ -86,7 +86,7 @@ fn covered(analysis: &Analysis, level: &Level) -> Vec<Evidence> {
         let with = |symbol: &&u8| game.places(**symbol).contains(&stype);
         let mut placing = symbols.iter().filter(with).peekable();
         let Some(&&first) = placing.peek() else { continue };
-        // The avatar does not count as a cover, because it moves off the sprite that it stands on.
+        // The avatar does not count as a cover, because it moves off the sprite on which it stands.
         let over = |symbol: u8| {
             let others = game.places(symbol).iter().filter(visible);
             others.copied().find(|&other| {

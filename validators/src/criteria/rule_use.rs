@@ -85,12 +85,12 @@ impl GameValidator for RuleUse {
 /// The rules and types that occur in a game's recorded episodes, as counted by [`RuleUse`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RulesShown {
-    /// The interactions executed in some episode, as indices into
+    /// The interactions executed in at least one episode, as indices into
     /// [`Description::interactions`](engine::Description), without interactions with the screen edge.
     pub executed: Vec<usize>,
     /// The interactions that no episode executed, without interactions with the screen edge.
     pub idle: Vec<usize>,
-    /// The types that are declared, have sprites of their own, and occurred on the board or as a resource.
+    /// The types that are declared, can have sprites of their own, and occurred on the board or as a resource.
     pub present: Vec<SpriteType>,
     /// The types that never occurred.
     pub absent: Vec<SpriteType>,
@@ -98,8 +98,8 @@ pub struct RulesShown {
 
 impl RulesShown {
     /// Counts the rules and types in the episodes recorded by the levels' validators, and in the panel's random walks
-    /// for missing rules. The same arguments give the same result on any number of threads. Costs two replays of the
-    /// episodes, with at most 100,000 ticks per level each, and up to 400 walks of 40 random actions per level.
+    /// in search of missing rules. The same arguments give the same result on any number of threads. Costs two replays
+    /// of the episodes, with at most 100,000 ticks per level each, and up to 400 walks of 40 random actions per level.
     pub fn of(game: &Game, levels: &[Level], reports: &[Report], seed: Seed) -> RulesShown {
         let episodes = record(game, levels, reports, seed, u64::MAX);
         let usage = Usage::of(game, &recorded(levels, &episodes));
@@ -110,7 +110,7 @@ impl RulesShown {
     }
 }
 
-/// Returns a reason, extended by the number of further reasons.
+/// Returns a reason, followed by the number of further reasons.
 pub(crate) fn with_count(first: &str, others: usize) -> String {
     match others {
         0 => first.to_owned(),

@@ -10,12 +10,12 @@ use agents::{Play, Stopped};
 use engine::Outcome;
 use statistics::{Interval, Z95};
 
-/// Passes if stronger players win more, or score more, than players that do not look ahead. The difference
-/// must reach a margin and be significant, which means that its 95% interval is above 0. Both a ladder player
-/// and a held-out player must show it, so that a level is not fitted to the players that found it.
+/// Passes if stronger players win more, or score more, than players that do not look ahead. The difference must reach a
+/// margin and be significant, which means that its 95% interval is above 0. Both a ladder player and a held-out player
+/// must show the difference, so that a level is not fitted to the players that guided the search for it.
 ///
-/// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle too deep for
-/// every ladder player therefore still shows skill if players that do not look ahead lose it.
+/// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle that is too deep for
+/// every ladder player can therefore still show skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub(crate) struct SkillPays {
     /// The players, and the limits on their episodes.
@@ -25,12 +25,12 @@ pub(crate) struct SkillPays {
     /// The minimum difference in mean score, as a fraction of the range of all scores. Reaching this difference is
     /// sufficient even if `wins` is not reached.
     scores: f64,
-    /// The number of forward-model calls after which an episode is stopped. If an episode is stopped, a failure becomes
-    /// unknown.
+    /// The number of forward-model calls after which an episode is stopped. If any episode is stopped, a failure
+    /// becomes unknown.
     play_calls: u64,
-    /// `true` to allow stopping after each round of episodes, from the third round on. The judge stops if
-    /// skill pays off even by a stricter boundary, or if no player is far ahead of the baseline. More
-    /// episodes would then rarely change the answer: `cargo xtask judging` counts how often they do.
+    /// `true` to allow stopping after each round of episodes, from the third round on. The judge stops if skill pays
+    /// off even with a stricter boundary, or if no player is far ahead of the baseline. More episodes would then rarely
+    /// change the answer; `cargo xtask judging` counts how often they do.
     sequential: bool,
 }
 
@@ -63,8 +63,8 @@ struct Advantage {
     pays: bool,
     /// `true` if the advantage is large enough, but not significant.
     unsure: bool,
-    /// `true` if the advantage is large enough, or at least half as large as required in scores, so that more
-    /// episodes might show that it is.
+    /// `true` if more episodes might show the advantage. This is the case if it is large enough in wins, or at least
+    /// half as large as required in scores.
     leads: bool,
 }
 
@@ -109,7 +109,7 @@ impl Validator for SkillPays {
         };
         let Answer { ladder, advantages: [advantages, held], won, shown, accepted } = answer;
         let unsure = advantages.iter().chain(&held).any(|advantage| advantage.unsure);
-        // If no player ever wins and all players score the same, the players are too weak to give an answer.
+        // If no player ever wins and all players score the same, they are too weak to give an answer.
         let telling = played.plays.iter().flatten().any(is_won) || range(&played) > 0.0;
         let verdict = if shown && accepted {
             Verdict::pass()

@@ -8,14 +8,14 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
 
-/// Passes if, across all levels together, the strongest ladder player and the strongest held-out player both
-/// win more often than the best player that does not look ahead. Even the lower end of Newcombe's 95%
-/// interval for the difference must reach the margin. A single level has too few episodes for such a test,
-/// but five levels have enough.
+/// Passes if, across all levels together, the strongest ladder player and the strongest held-out player both win more
+/// often than the best player that does not look ahead. Even the lower end of Newcombe's 95% interval of the difference
+/// must reach the margin. The episodes on a single level are too few for such a test, but those on five levels are
+/// enough.
 ///
-/// If all of a game's levels are deterministic and have a known win, a player that knows the solutions counts
-/// as a ladder player and as a held-out player. The criterion has no extra cost, because its episodes come
-/// from the criterion `skill`.
+/// If all levels are deterministic and have a known win, a player that knows the solutions counts both as a ladder
+/// player and as a held-out player. The criterion has no extra cost, because its episodes come from the criterion
+/// `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
     /// The margin, as a difference between win rates.
@@ -37,14 +37,14 @@ impl Total {
         self.wins as f64 / self.plays.max(1) as f64
     }
 
-    /// Extrapolates the total by `times` times as many further episodes, won at the rate `share`.
+    /// Extrapolates the total by `times` times as many further episodes, which the player wins at the rate `share`.
     fn extrapolated(&self, times: f64, share: f64) -> Total {
         let plays = (self.plays as f64 * times).round();
         let wins = self.wins + (plays * share).round() as u64;
         Total { wins, plays: self.plays + plays as u64, ..self.clone() }
     }
 
-    /// Returns the interval for the difference from the win rate of `baseline`.
+    /// Returns the interval of the difference between the player's win rate and that of `baseline`.
     fn difference_to(&self, baseline: &Total) -> Interval {
         statistics::difference([self.wins, baseline.wins], [self.plays, baseline.plays], Z95)
     }
@@ -102,10 +102,10 @@ impl GameValidator for SkillOverall {
 }
 
 impl SkillOverall {
-    /// Returns `true` if the game is unlikely to meet the margin, judging by the first of its `levels` levels. Such
-    /// a game would miss the margin even if the strong players went on to win at the upper end of Wilson's 95%
-    /// interval of their win rate so far. `planned` means that all levels are deterministic and have a known win. If
-    /// all levels are given, the answer equals the criterion's.
+    /// Returns `true` if the first of the game's `levels` levels show that it is unlikely to meet the margin. Such a
+    /// game would miss the margin even if, on the remaining levels, the strong players won at the upper end of Wilson's
+    /// 95% interval of their win rate so far. `planned` means that all levels are deterministic and have a known win.
+    /// If all levels are given, the answer equals the criterion's.
     pub fn is_hopeless(&self, ladders: &[&Ladder], planned: bool, levels: usize) -> bool {
         let ahead = levels.saturating_sub(ladders.len()) as f64 / ladders.len().max(1) as f64;
         sides(ladders, planned).is_some_and(|(baseline, sides)| {

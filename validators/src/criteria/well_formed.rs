@@ -26,7 +26,7 @@ impl Validator for WellFormed {
     fn validate(&self, case: Case<'_>) -> Finding {
         let Case { game, level, analysis, seed, .. } = case;
         if !analysis.can_win() {
-            // Among swapped rules, report only the one that prevents every win.
+            // If several rules seem to have swapped sides, report only the one that prevents every win.
             let told = game.warnings().iter().find(|warning| {
                 warning.code == "no-win"
                     || warning.code == "swapped-rule" && warning.message.contains("cannot be won")
@@ -89,10 +89,10 @@ fn path_finder(game: &Game) -> Option<Line> {
     Line::sprite(game, name)
 }
 
-/// The number of seeds with which a game must end in its first tick to count as over at once.
+/// The number of seeds with which a game must end in its first tick in order to count as over at once.
 const STARTS: u64 = 8;
 
-/// Returns `true` if every first action ends the game in its first tick, with several seeds, so that the level is
+/// Returns `true` if, with several seeds, every first action ends the game in its first tick. Such a level is
 /// unplayable.
 pub(crate) fn is_over_at_once(game: &Game, level: &Level, seed: Seed) -> bool {
     (0..STARTS).map(|start| seed.child("start", start)).all(|seed| {

@@ -17,8 +17,8 @@ use engine::describe::{self, plural};
 /// search may also prove that there is no win, or that the win found is the shortest.
 ///
 /// The level is analysed before the search. If the analysis shows that a win is unreachable
-/// ([`engine::analysis::Reach`]), the level fails without a search, and the panel adds the chain of causes
-/// for designers.
+/// ([`engine::analysis::Reach`]), the level fails without a search, and the panel explains the chain of causes to
+/// designers.
 ///
 /// If no win is found within the budget, the verdict is `Unknown`, never `Fail`, because an interrupted search proves
 /// nothing.

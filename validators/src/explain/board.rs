@@ -11,7 +11,7 @@ pub struct Board {
     pub rows: Vec<String>,
     /// The type that each character on the board represents.
     pub legend: Vec<(char, String)>,
-    /// The characters that do not stand for their type in the LevelMapping.
+    /// The characters that do not represent their type in the LevelMapping.
     #[serde(skip)]
     stand_ins: Vec<char>,
 }
@@ -55,16 +55,16 @@ impl Board {
 /// Characters for types that no level character places alone, in order of preference.
 const SPARE: &str = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@#$%&*+=?!";
 
-/// The character for types for which no other character is left.
+/// The character for all types for which no other character is left.
 const OTHER: char = '·';
 
-/// Returns a character for every type with a class, and the subset of characters that come from the
-/// LevelMapping. A type gets a character that places it on top. If there is none, it gets the first free
-/// character of its name or, failing that, of the alphabet.
+/// Returns a character for every type with a class, and the subset of characters that come from the LevelMapping. A
+/// type gets a character that places it on top. If there is none, it gets the first free letter of its name or, failing
+/// that, the first free spare character.
 fn symbols(game: &Game) -> (Vec<(SpriteType, char)>, BTreeSet<char>) {
     let mut free: BTreeSet<char> = ('!'..='~').collect();
     let mut symbols: Vec<(SpriteType, char)> = Vec::new();
-    // The fewer sprites a character places, the more it says about the topmost one.
+    // The fewer sprites a character places, the better it represents the topmost one.
     let mut mapped: Vec<(usize, char, SpriteType)> = Vec::new();
     for symbol in '!'..='~' {
         let placed = game.places(symbol as u8);

@@ -11,12 +11,12 @@ use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_r
 
 /// The maximum number of chains to report, one per winning termination.
 const MAX_CHAINS: usize = 3;
-/// The maximum product of the numbers of cells and interactions up to which swapped rules are searched for.
+/// The maximum product of the number of cells and the number of interactions at which swapped rules are still searched
+/// for.
 const MAX_EFFORT: usize = 1 << 18;
 
-/// Rewrites the failure of a level that is proven unwinnable: adds the chain of causes, and the rule whose
-/// sides are most likely swapped. Other findings stay unchanged. Cost: several analyses of the level, one per
-/// rule.
+/// Rewrites the failure of a level that is proven unwinnable. Adds the chain of causes, and the rule whose sides are
+/// most likely swapped. All other findings remain unchanged. Cost: several analyses of the level, one per rule.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let Case { game, level, analysis, .. } = case;
     if !matches!(finding.verdict, Verdict::Fail { .. }) || analysis.reach(level).can_win() {
@@ -25,7 +25,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
     let mut evidence = Vec::new();
     let effort = level.cells().len() * game.description().interactions.len();
     if analysis.can_win() && effort <= MAX_EFFORT {
-        // If no level can be won, the game's own warnings report that.
+        // If no level of the game can be won, the game's own warnings report it.
         let text = level.to_string();
         let wins = |game: &Game| {
             let level = game.level(&text);
@@ -271,7 +271,7 @@ impl Explanation<'_> {
     fn unreachable(&mut self, unreachable: &Unreachable, text: String, rule: Option<Line>) {
         let cell = Some(self.place(unreachable.cell));
         let link = Evidence { cell, rule, ..Evidence::new(text) };
-        // If there are several sources, the shortage gives the advice.
+        // If there are several sources, the advice is part of the shortage.
         let alone = unreachable.blockers.is_empty() && link.rule.is_some();
         self.links.push(if alone { link.advise("open a path to it") } else { link });
         for Blocker { stype, cell, obstacles } in &unreachable.blockers {
@@ -285,7 +285,7 @@ impl Explanation<'_> {
         }
     }
 
-    /// Returns the type if the level places it in the cell, or the cell's topmost type if not.
+    /// Returns the type if the level places it in the cell. Otherwise, returns the cell's topmost type.
     fn standing(&self, cell: usize, stype: SpriteType) -> SpriteType {
         let places = self.analysis.game().places(self.level.cells()[cell]);
         let known = places.contains(&stype) || places.is_empty();
@@ -300,7 +300,7 @@ impl Explanation<'_> {
         format!("the {}", self.name(stype))
     }
 
-    /// Describes the acting sprite: the avatar, under any name, or sprites of a type.
+    /// Describes the acting sprite, which is either the avatar (under any name) or sprites of a type.
     fn acting(&self, stype: SpriteType) -> String {
         let own = self.analysis.avatars().iter().any(|avatar| self.analysis.applies(stype, avatar.stype));
         if own { "the avatar".to_owned() } else { self.the(stype) }

@@ -1,8 +1,7 @@
 //! Searches for the line of a game that is responsible if a level is unwinnable or has no known win.
 //!
-//! The module changes one line of the game at a time, and searches for a win in the changed game. A win
-//! proves that the changed game can be won. It proves that the change is necessary only if the original level
-//! is proven unwinnable.
+//! The module changes one line of the game at a time, and searches for a win in the changed game. A win proves that the
+//! changed game can be won. It proves that a change is necessary only if the original level is proven unwinnable.
 
 use crate::case::Case;
 use crate::criteria::is_guard;
@@ -14,22 +13,22 @@ use engine::analysis::{Condition, EffectSummary, Motion, Role};
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use engine::{Analysis, Description, Episode, Game, Meeting, SpriteType};
 
-/// The divisor by which the total budget of all these searches is derived from the budget of `winnable`.
+/// The divisor of the budget of `winnable` that gives the total budget of all these searches.
 const SHARE: u64 = 2;
-/// The fraction of a search's budget that may be spent foreseeing all randomness in a stochastic game.
+/// In a stochastic game, the fraction of a search's budget that may be spent on searching with all randomness foreseen.
 const FORESIGHT: f64 = 0.4;
 /// The maximum number of lines to report.
 const MAX_NAMED: usize = 3;
 /// The maximum number of searches.
 const MAX_TRIALS: u64 = 200;
-/// The speed given to sprites that carry others, at which a sprite takes several ticks to leave a cell.
+/// The speed given to sprites that should carry others. At this speed, a sprite takes several ticks to leave a cell.
 const CARRYING_SPEED: &str = "0.2";
 
 /// The start of the sentence about a line whose presence or absence makes the level winnable.
 pub(crate) const CAN_BE_WON: &str = "the level can be won ";
 
-/// Adds to a `winnable` finding the lines that prevent a win, as far as searches in changed games show this.
-/// Other findings stay unchanged. Costs half of the search budget.
+/// Adds the lines that prevent a win to a `winnable` finding, as far as searches in changed games reveal them. All
+/// other findings remain unchanged. Costs half of the search budget.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) {
     let is_open = match &finding.verdict {
         Verdict::Pass { .. } => return,
@@ -99,8 +98,8 @@ impl Trials<'_> {
     fn all(&mut self) -> Vec<Evidence> {
         let repairs: Vec<Changed> = self.carriers().into_iter().chain(self.leavers()).collect();
         let dropped = self.dropped();
-        // A swapped push is the most frequent mistake of this kind, and correcting it leaves all other rules
-        // as they are.
+        // A swapped push is the most frequent mistake of this kind, and its correction leaves all other rules
+        // unchanged.
         let is_push = |(line, _): &(usize, Changed)| {
             let mut encounters = self.case.analysis.encounters().iter();
             encounters.any(|other| other.line == *line && other.does(|effect| *effect == EffectSummary::Push))
@@ -120,7 +119,7 @@ impl Trials<'_> {
             return found;
         }
         let mut lines = Vec::new();
-        // Walls keep the avatar out of many cells, so removing them removes more than the cause.
+        // Walls keep the avatar out of many cells, so removing their rule removes more than the cause.
         let analysis = self.case.analysis;
         let is_wall = |line: Option<usize>| line.is_some_and(|line| is_guard(analysis, line));
         let (walls, others): (Vec<_>, Vec<_>) = dropped.into_iter().partition(|(line, _)| is_wall(*line));
@@ -139,7 +138,7 @@ impl Trials<'_> {
             if found.len() >= MAX_NAMED {
                 break;
             }
-            // A rule that is merely in the way is not swapped.
+            // A rule that is only in the way does not have swapped sides.
             if !lines.contains(&line) {
                 found.extend(self.won(changed, &mut waiting).map(Won::evidence));
             }
@@ -147,8 +146,8 @@ impl Trials<'_> {
         found
     }
 
-    /// Searches for a win in a changed game. The remaining calls are divided equally among the changed games
-    /// not yet searched.
+    /// Searches for a win in a changed game. The remaining calls are divided equally among the changed games that have
+    /// not been searched yet.
     fn won(&mut self, changed: Changed, waiting: &mut u64) -> Option<Won> {
         let share = self.left / (*waiting).max(1);
         *waiting = waiting.saturating_sub(1);
@@ -288,7 +287,7 @@ impl Trials<'_> {
         let mut seen = vec![won.evidence()];
         let written = &game.description().interactions[line];
         let name = Line::interaction(game, line).text;
-        // Insert the rule below the last rule that shields from it, or at the end.
+        // Insert the rule below the last rule that shields the avatar from it, or at the end.
         let shields = |other: &InteractionLine| {
             let value = |key: &str| other.params.iter().find(|param| param.key.text == key);
             other.effect.text == "shieldFrom"
@@ -391,8 +390,8 @@ fn with_lines(game: &Game, change: impl FnOnce(&mut Vec<InteractionLine>)) -> Op
     Game::compile(&description).ok()
 }
 
-/// Gives the sprite called `name` a speed at which it can carry others. Returns `false` if the sprite already has such
-/// a speed.
+/// Sets the speed of the sprite called `name` to one at which it can carry others. Returns `false` if the sprite is
+/// already slow enough.
 fn slow_down(lines: &mut [SpriteLine], name: &str) -> bool {
     for line in lines {
         if line.name.text == name {

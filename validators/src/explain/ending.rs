@@ -1,4 +1,4 @@
-//! An episode's ending and the lines that caused it, for the reason of a verdict.
+//! The ending of an episode and the lines that caused it, to explain verdicts.
 
 use crate::evidence::{Evidence, Line};
 use crate::explain::board::Board;

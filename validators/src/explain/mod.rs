@@ -1,4 +1,4 @@
-//! Explanations, for designers, of why a level is not won and how an episode ends.
+//! Explanations for designers of why a level was not won and how an episode ended.
 
 pub(crate) mod board;
 pub(crate) mod causes;

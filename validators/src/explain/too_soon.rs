@@ -44,7 +44,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioC
         base::count(ticks, "tick")
     );
     finding.verdict = Verdict::fail(reason);
-    // The board at the time limit, on the way to that win.
+    // The board that the win has reached at the time limit.
     let mut state = game.start(level, episode.seed);
     let mut until = 0;
     for &action in &episode.actions {

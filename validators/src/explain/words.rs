@@ -1,4 +1,4 @@
-//! Judgements as text, for people.
+//! Judgements as text for people.
 
 use crate::criterion::Criterion;
 use crate::evidence::Evidence;
@@ -12,8 +12,7 @@ impl Judgement {
         self.finding.evidence.first().is_some_and(|seen| seen.text.starts_with("skipped"))
     }
 
-    /// Returns the answer as one sentence, without the evidence; empty for a pass without anything to
-    /// report.
+    /// Returns the answer as one sentence, without the evidence; empty for a pass with nothing to report.
     pub fn answer(&self) -> String {
         let Judgement { criterion, finding } = self;
         match &finding.verdict {
@@ -31,7 +30,7 @@ impl Judgement {
                 "no win found: the budget allows no search".to_owned()
             }
             Verdict::Unknown { spent: 0 } => "needs a win, but no win was found".to_owned(),
-            // Evidence about work that the budget stopped comes first.
+            // If the budget stopped some work, the evidence about it comes first.
             Verdict::Unknown { .. } if finding.evidence.first().is_some_and(is_budget_note) => {
                 finding.evidence[0].text.clone()
             }

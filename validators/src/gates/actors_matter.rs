@@ -9,11 +9,11 @@ use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Passes if two conditions are met. Self-moving sprites, not counting the player's shots, must sweep an
-/// average of at least [`Gates::sweep`] cells each. On at least [`Gates::met_levels`] of the levels with such
-/// sprites, a sprite must also enter (or come next to) a cell on the win's route, and come next to the
-/// player. If contact with such sprites can kill, a third condition applies: they must cause at least
-/// [`Gates::foe_losses`] of careless players' losses.
+/// Passes if two conditions are met. Self-moving sprites, not counting the player's shots, must sweep an average of at
+/// least [`Gates::sweep`] cells each. On at least [`Gates::met_levels`] of the levels with such sprites, one of them
+/// must also enter (or come next to) a cell on the win's route, and come next to the player. If contact with such
+/// sprites can kill, a third condition applies: they must cause at least [`Gates::foe_losses`] of careless players'
+/// losses.
 ///
 /// The sprites are observed in the shortest known wins and in careless episodes. A sprite counts if it lived
 /// for twenty ticks. Such sprites cause a loss if the avatar meets one of them, or one of their products, in
@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Clone, Debug)]
 pub(crate) struct ActorsMatter(Gates);
 
-/// The minimum lifetime, in ticks, for a sprite to be measured.
+/// The minimum lifetime, in ticks, at which a sprite is measured.
 const LIFE: usize = 20;
 
 pub(crate) const QUESTION: &str = "do sprites that move by themselves get in the player's way?";
@@ -101,7 +101,7 @@ struct Actors<'a> {
     moves: Vec<bool>,
     /// For each type, `true` if it is self-moving or created by a self-moving type.
     foes: Vec<bool>,
-    /// `true` if contact with any foe is harmful.
+    /// `true` if contact with at least one type of foe is harmful.
     deadly: bool,
 }
 

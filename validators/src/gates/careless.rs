@@ -8,16 +8,15 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The maximum length of an episode as a multiple of the number of ticks in the win, before [`GRACE`] is
-/// added.
+/// The maximum length of an episode, as a multiple of the number of ticks in the win. [`GRACE`] is added to it.
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
-/// The number of episodes in a closer evaluation, as a multiple of the number in the first one. A gate
-/// requests it before it fails because of a few episodes.
+/// The number of episodes in a closer evaluation, as a multiple of the number in the first one. A gate requests a
+/// closer evaluation before it fails because of only a few episodes.
 pub(super) const CLOSER: u32 = 4;
 
-/// The careless players' episodes, which are played when a gate first requests them, and shared by all gates.
+/// The careless players' episodes. They are played when a gate first requests them, and all gates share them.
 pub(crate) struct CarelessPlays<'a> {
     game: &'a Game,
     seed: Seed,
@@ -71,8 +70,8 @@ impl WonLevel<'_> {
     }
 }
 
-/// Plays the episodes with the given numbers with a nearest-goal player that slips in a fraction of its
-/// ticks, on a level won in `ticks` ticks. Cost: one call per action and tick.
+/// Plays the episodes with the given numbers on a level that can be won in `ticks` ticks. The player walks to the
+/// nearest goal and slips in a fraction of its ticks. Cost: one call per action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
     level: &Level,
@@ -90,8 +89,8 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// Returns the fraction of careless episodes on a level that end by the rules, with a win or a loss. All
-/// other episodes get stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
+/// Returns the fraction of careless episodes on a level that the rules end with a win or a loss. All other episodes get
+/// stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;
     let plays = nearest_goal(game, level, win.actions.len(), gates.careless_slips, numbers, seed);
@@ -100,7 +99,7 @@ pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, see
     ended as f64 / plays.len().max(1) as f64
 }
 
-/// Returns the fraction of episodes won.
+/// Returns the fraction of episodes that were won.
 pub(super) fn win_share(plays: &[Episode]) -> f64 {
     let won = plays.iter().filter(|episode| episode.outcome == Outcome::Won).count();
     won as f64 / plays.len().max(1) as f64

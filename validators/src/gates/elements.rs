@@ -12,8 +12,8 @@ pub(super) struct Element {
     /// The rule's text, or the type's name.
     pub(super) text: String,
     line: Option<Line>,
-    /// The indices of the levels on which the element occurs, because the type is placed there or a recorded
-    /// episode executes the rule there.
+    /// The indices of the levels on which the element occurs. A type occurs where it is placed, and a rule where a
+    /// recorded episode executes it.
     pub(super) levels: Vec<usize>,
     pub(super) without: Game,
     /// `true` if the element is a type, so that levels must be parsed again without it.
@@ -38,9 +38,9 @@ impl Element {
     }
 }
 
-/// Returns a game's elements: interactions and placed types. Guards ([`Guards`]) are excluded, and so are
-/// interactions by which a wall keeps sprites other than avatars in bounds. Avatars, walls, the background,
-/// and types that an ending counts are excluded as well.
+/// Returns a game's elements: interactions and placed types. Excluded interactions are guards ([`Guards`]), and those
+/// in which a wall keeps sprites other than avatars in bounds. Excluded types are avatars, walls, the background, and
+/// types that an ending counts.
 ///
 /// `executed` lists, by level, the rules that were executed in addition to those in the recording.
 pub(super) fn elements(case: GameCase<'_>, executed: &[(usize, BTreeSet<usize>)]) -> Vec<Element> {

@@ -1,8 +1,8 @@
-//! Gates: criteria that measure what people notice when they play a game's levels in order.
+//! Gates are criteria that measure what people notice when they play a game's levels in order.
 //! `docs/reference/gates.md` explains each gate, with the evidence for its thresholds.
 //!
-//! A gate examines the shortest known win of each level. Levels without a known win are skipped. The figure
-//! in a finding is meant for tables: see [`Finding::figure`].
+//! A gate examines the shortest known win of each level. Levels without a known win are skipped. The figure in a
+//! finding is intended for tables; see [`Finding::figure`].
 
 pub(crate) mod actors_matter;
 mod careless;
@@ -58,7 +58,7 @@ fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -
     Finding { figure, ..Finding::from(verdict).seen(problems).seen(notes) }
 }
 
-/// Returns the finding for a gate that makes one statement. It is a problem unless the game passes.
+/// Returns the finding for a gate that makes a single statement. The statement is a problem unless the game passes.
 fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
     match passes {
         true => finding(Vec::new(), vec![seen], Some(figure)),

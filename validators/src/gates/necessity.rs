@@ -16,10 +16,10 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and
-/// placed types, except avatars, walls, the background and types that an ending counts. An element matters
-/// if, on at least [`Gates::needed_levels`] of the levels on which it occurs, the game without it meets one
-/// of the following conditions. They are tested from cheapest to most expensive:
+/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and placed
+/// types, except avatars, walls, the background and types that an ending counts. An element matters if, on at least
+/// [`Gates::needed_levels`] of the levels on which it occurs, the game without it meets one of the following
+/// conditions. The cheapest condition is tested first:
 ///
 /// 1. the shortest known win no longer wins, or wins earlier by [`Gates::plan_change`], so that different actions are
 ///    needed;
@@ -28,8 +28,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// 3. a search that foresees the random draws of the win finds a much shorter win. It must be shorter by
 ///    [`Gates::plan_change`] than both the known win and the win that the search finds with the element.
 ///
-/// The gate fails only if it would fail even if every element not proven idle mattered; if not, the verdict
-/// is unknown. On deterministic levels, searches can prove an element idle by proving the shortest wins with
+/// The gate fails only if it would fail even if every element that is not proven idle mattered. If it would not, the
+/// verdict is unknown. On deterministic levels, searches can prove an element idle by proving the shortest wins with
 /// and without it.
 ///
 /// Removing a moving type shifts the random draws of a stochastic game, so the known win is not replayed
@@ -104,7 +104,7 @@ impl GameValidator for Necessity {
         let found = if share >= gates.needed_share {
             finding(Vec::new(), [note].into_iter().chain(idle).collect(), Some(share))
         } else if share_of(needed + open) >= gates.needed_share {
-            // Elements may matter even if no test shows that they do.
+            // Elements may matter even if no test shows it.
             let found = Finding::from(Verdict::Unknown { spent }).seen(idle).seen([note]);
             Finding { figure: Some(share), ..found }
         } else {
@@ -121,7 +121,7 @@ enum Need {
     Shown,
     /// No test shows that the element matters, and the searches were not exhaustive.
     NotShown,
-    /// The element is proven not to matter in the sense of the tests.
+    /// The element is proven not to matter, as defined by the tests.
     Refuted,
 }
 
@@ -207,8 +207,8 @@ impl Necessity {
         differing as f64 >= self.0.plan_change * subject.careless.len() as f64
     }
 
-    /// Returns `true` if a search shows that a level can be won much sooner without the element, and `true`
-    /// if this result is proven.
+    /// Returns two flags. The first is `true` if a search shows that a level can be won much sooner without the
+    /// element. The second is `true` if the result is proven.
     fn hinders(&self, case: GameCase<'_>, element: &Element, subject: &Subject<'_>) -> (bool, bool) {
         let WonLevel { level, win, .. } = subject.won;
         let known = win.actions.len();
@@ -248,7 +248,7 @@ impl Necessity {
     }
 }
 
-/// A search's memory, in bytes.
+/// The maximum memory of a search, in bytes.
 const BYTES: usize = 1 << 27;
 
 /// Returns the outcome of a sequence of actions, and the number of ticks until then.

@@ -20,8 +20,8 @@ use std::collections::BTreeSet;
 /// - the number of a type's stationary sprites
 /// - the position of a pushable sprite
 ///
-/// It also makes progress if the avatar enters a cell not visited since the last such change. Waiting, pacing
-/// to and fro and walking back are dead time. Costs one replay of each win.
+/// It also makes progress if the avatar enters a cell that it has not visited since the last such change. Waiting,
+/// pacing to and fro and walking back are therefore dead time. Costs one replay of each win.
 #[derive(Clone, Debug)]
 pub(crate) struct NoDeadTime(Gates);
 
@@ -102,7 +102,7 @@ impl Telling {
         }
     }
 
-    /// Returns the number of ticks in a win's longest stretch without progress, and the tick before that stretch.
+    /// Returns the number of ticks in the longest stretch of a win without progress, and the tick before that stretch.
     fn longest_stretch(&self, won: WonLevel<'_>, case: GameCase<'_>) -> (usize, usize) {
         let mut state = case.game.start(won.level, won.win.seed);
         let mut standing = self.standing(&state);

@@ -17,7 +17,7 @@ use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 /// - The nearest-goal player ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its episodes. If
 ///   it wins more, it plays four times as many episodes.
 ///
-/// A fraction [`Gates::instant_levels`] of these levels may be exceptions. In addition, the game's time limit
+/// Up to a fraction [`Gates::instant_levels`] of these levels may be exceptions. In addition, the game's time limit
 /// must be within [`Gates::time_limit`] times the longest known win.
 ///
 /// A spawner counts if the level places it and its sprites can do harm, are needed for an ending or give
@@ -84,15 +84,15 @@ impl GameValidator for NotInstant {
 }
 
 impl NotInstant {
-    /// Returns `true` if the nearest-goal player wins a level more often than is allowed after the first
-    /// level. The player may take as long as for a win of `ticks` ticks. This check needs no known win, so it
-    /// can reject a level before a win search. It does not include the gate's closer evaluation. Costs the
+    /// Returns `true` if the nearest-goal player wins a level more often than the gate allows on levels after the
+    /// first. The player may take as long as if the known win took `ticks` ticks. This check does not need a known win,
+    /// so it can reject a level before a win search. It does not include the gate's closer evaluation. Costs the
     /// player's episodes.
     pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
         NotInstant::nearest_goal_wins(game, level, ticks, self.0.bot_plays, seed) > self.0.bot_wins
     }
 
-    /// Returns `true` if a win comes sooner than is allowed after the first level.
+    /// Returns `true` if a win comes sooner than the gate allows on levels after the first.
     pub fn is_too_short(&self, analysis: &Analysis, level: &Level, win: &Episode) -> bool {
         let won = WonLevel { number: 1, level, win };
         !self.too_short(analysis, won, &periods(analysis)).is_empty()

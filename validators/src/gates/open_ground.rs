@@ -82,7 +82,7 @@ mod tests {
         // Removable obstacles count as ground.
         let gates = "wwwwwwwww\nwAg g gpw\nwgg g  gw\nwwwwwwwww\n";
         check(Criterion::OpenGround, GAME, &[gates], None);
-        // A narrow level is allowed among wide levels.
+        // A narrow level is allowed if the other levels are wide.
         check(Criterion::OpenGround, GAME, &[tunnel, gates, gates, hall], None);
     }
 }

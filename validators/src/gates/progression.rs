@@ -16,10 +16,9 @@ use std::collections::BTreeSet;
 ///   needed on any level.
 /// - The last level is not easier than either of the first two by more than [`Gates::easier`].
 ///
-/// If a ladder was played on every level, a level's ease is its ease for the ladder. If not, its ease is the
-/// win rate of careless players, with four times as many episodes if the last level seems easier. Games with
-/// fewer than three levels have no progression to judge. Costs one replay of each win, and the careless
-/// episodes.
+/// If a ladder was played on every level, the ease of a level is its ease for the ladder. If not, it is the win rate of
+/// careless players, with four times as many episodes if the last level seems easier. Games with fewer than three
+/// levels have no progression to judge. Costs one replay of each win, and the careless episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Progression(Gates);
 
@@ -94,8 +93,8 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// Returns the levels' ease, from 0 to 1. If careless episodes measure ease and the first ones count
-    /// against the game, evaluates the compared levels more closely.
+    /// Returns the levels' ease, from 0 to 1. If careless episodes measure the ease and the first ones count against
+    /// the game, evaluates the compared levels more closely.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();
@@ -114,7 +113,7 @@ impl Progression {
     }
 }
 
-/// Returns the ease of the last level, and the smaller of the first two levels' eases.
+/// Returns the ease of the last level, and the lower of the eases of the first two levels.
 fn last_and_easiest(eases: &[f64]) -> (f64, f64) {
     (eases[eases.len() - 1], eases[0].min(eases[1]))
 }

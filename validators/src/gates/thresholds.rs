@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The gates' thresholds: a recipe's `[criteria.gates]` table. `docs/reference/gates.md` gives the source
-    /// of each threshold.
+    /// The gates' thresholds, which are the `[criteria.gates]` table of a recipe. `docs/reference/gates.md` gives the
+    /// source of each threshold.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
@@ -40,7 +40,7 @@ base::with_defaults! {
         pub met_levels: f64 = 0.5,
         /// `actors-matter`: the minimum fraction of careless players' losses that deadly foes cause.
         pub foe_losses: f64 = 0.1,
-        /// `tight`: the minimum and maximum fraction of the consumables that a win leaves, on average.
+        /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, on average.
         pub spare: (f64, f64) = (0.0, 0.5),
         /// `tight`, `progression`, `actors-matter`, `necessity`: the number of episodes of careless players per level.
         pub careless_plays: u32 = 8,
@@ -48,12 +48,13 @@ base::with_defaults! {
         pub careless_slips: f64 = 0.25,
         /// `tight`: the maximum fraction of careless episodes that may be won.
         pub careless_wins: f64 = 0.5,
-        /// `necessity`: the change that counts, in the length of a win or in the fraction of careless episodes that end
-        /// differently.
+        /// `necessity`: the minimum relative change in the length of a win, or the minimum fraction of careless
+        /// episodes that end differently, at which an element matters.
         pub plan_change: f64 = 0.15,
-        /// `necessity`: the minimum fraction of the levels with a rule or type on which it has to matter.
+        /// `necessity`: the minimum fraction of the levels with a rule or type on which it must matter in order to
+        /// count.
         pub needed_levels: f64 = 0.5,
-        /// `necessity`: the minimum fraction of the rules and types that has to matter.
+        /// `necessity`: the minimum fraction of the rules and types that must matter.
         pub needed_share: f64 = 0.55,
         /// `necessity`: the number of forward-model calls of a search without a rule or type on one level.
         pub needed_calls: u64 = 10_000,
@@ -66,8 +67,8 @@ impl Gates {
         *self == Gates::default()
     }
 
-    /// Returns stricter thresholds for the measures that involve randomness. Games that pass them also pass
-    /// the original thresholds with other seeds.
+    /// Returns stricter thresholds for the measures that involve randomness, so that games that pass them also pass the
+    /// original thresholds with other seeds.
     #[must_use]
     pub fn with_margin(&self) -> Gates {
         Gates {
@@ -80,7 +81,7 @@ impl Gates {
         }
     }
 
-    /// Returns laxer thresholds for a subset of a game's levels, which require no new mechanics and only half of the
+    /// Returns laxer thresholds for a subset of a game's levels. They require no new mechanics and only half of the
     /// drama.
     #[must_use]
     pub fn for_some_levels(&self) -> Gates {

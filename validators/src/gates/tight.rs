@@ -79,7 +79,7 @@ fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option
     let mut spent = 0;
     for &action in &won.win.actions {
         case.game.step(&mut state, action);
-        // A dead avatar holds nothing, but a win ends with a living avatar.
+        // A dead avatar holds nothing, so its resources would count as spent, but a win ends with a living avatar.
         spent += (before - held(&state)).max(0);
         before = held(&state);
     }

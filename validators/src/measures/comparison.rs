@@ -1,4 +1,4 @@
-//! Compares a game with and without one of its rules, in every reachable state.
+//! Comparison of a game with and without one of its rules in every reachable state.
 
 use base::Seed;
 use engine::{Analysis, Level, State};
@@ -7,9 +7,9 @@ use std::collections::{BTreeSet, VecDeque};
 /// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Comparison {
-    /// Some sequence of actions ends or scores differently in the two games.
+    /// Some sequence of actions has a different outcome or score in the two games.
     Differs,
-    /// All sequences of actions are proven to end and score the same. Contains the number of state pairs in
+    /// All sequences of actions are proven to have the same outcome and score. Contains the number of state pairs in
     /// the proof.
     Equal(usize),
     /// The result is unknown, because the level is stochastic or the calls ran out.
@@ -19,8 +19,8 @@ pub(crate) enum Comparison {
 /// The maximum number of distinct state pairs to examine.
 const MAX_PAIRS: usize = 50_000;
 
-/// Compares two games that differ in one rule by a breadth-first search on a level, with at most `most`
-/// forward-model calls. Returns the result and the number of calls.
+/// Compares two games that differ in one rule, by a breadth-first search of a level with at most `most` forward-model
+/// calls. Returns the result and the number of calls.
 ///
 /// State pairs with equal search keys have the same future, so the search continues from only one of them.
 pub(crate) fn compare(games: [&Analysis; 2], level: &Level, seed: Seed, most: u64) -> (Comparison, u64) {

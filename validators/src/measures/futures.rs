@@ -1,8 +1,8 @@
-//! Random futures from a moment in an episode, compared with the episode as played. They show which side is
-//! in the lead, and how far ahead a player must look.
+//! Random futures from a moment in an episode, compared with the episode as played. They show whether the player or the
+//! game is in the lead, and how far ahead a player must look.
 //!
-//! The futures press random keys, but undo a key that loses immediately. Without this, any deadly game would
-//! look hopeless at every moment.
+//! The futures press random keys, but replace a key that loses immediately. Otherwise, every deadly game would look
+//! hopeless at all times.
 
 use base::{Sampler, Seed};
 use engine::{Game, Outcome, State};
@@ -17,7 +17,7 @@ pub const FUTURES: u64 = 8;
 const CHECKPOINTS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
 /// The number of random keys to try per tick.
 const KEYS_TRIED: usize = 3;
-/// The number of futures that must be worse for the actual play to count as visibly better.
+/// The number of futures that must be worse than the actual play for it to count as visibly better.
 const WORSE: usize = 6;
 
 /// A future being played.
@@ -49,7 +49,7 @@ impl Future<'_> {
     }
 }
 
-/// The standing of a game, compared first by outcome and then by score.
+/// The standing in a game, compared first by outcome and then by score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Standing {
     outcome: i8,

@@ -1,4 +1,4 @@
-//! Guards: interactions that keep sprites on the board and out of walls, and hardly count as mechanics.
+//! Guards, which are interactions that keep sprites on the board and out of walls, and that hardly count as mechanics.
 
 use super::families::EffectFamily;
 use crate::measures::is_guard;
@@ -9,7 +9,7 @@ use engine::{Analysis, Meeting, SpriteType};
 /// cost. A wall ([`Role::Wall`]) is stationary, always blocks and cannot be removed.
 #[derive(Clone, Debug)]
 pub struct Guards {
-    /// Each interaction line's kind.
+    /// The kind of each interaction line.
     lines: Vec<GuardKind>,
     /// For each type, `true` if it is a wall.
     walls: Vec<bool>,
@@ -62,8 +62,8 @@ impl Guards {
         (0..self.lines.len()).filter(guards)
     }
 
-    /// Returns `true` for an execution of a guard: either the line is a guard, or the execution involves a
-    /// wall, although the line also has other partners.
+    /// Returns `true` for an execution of a guard. Either the line is a guard, or the line also has other partners but
+    /// the execution involves a wall.
     pub fn covers(&self, meeting: Meeting) -> bool {
         match self.lines[meeting.line] {
             GuardKind::Edge => true,

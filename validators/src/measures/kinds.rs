@@ -1,4 +1,4 @@
-//! A game's kind, derived from its rules alone: the avatar, the goal, and the sources of randomness and movement.
+//! The kind of a game, derived from its rules alone: the avatar, the goal, and the sources of randomness and movement.
 
 use super::families::{ClassFamily, EffectFamily};
 use super::guards::Guards;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 base::named_enum! {
-    /// The initial avatar's abilities: how it moves, and whether the use key creates a sprite.
+    /// The initial avatar's abilities: its way of moving, and whether the use key creates a sprite.
     pub enum AvatarKind {
         /// The avatar moves up, left, down and right.
         Walks = "walks",
@@ -22,7 +22,7 @@ base::named_enum! {
         Slides = "slides",
         /// The avatar moves along a line, and shoots.
         SlidesAndShoots = "slides-and-shoots",
-        /// The avatar always moves ahead, whether or not it can be turned.
+        /// The avatar always moves ahead, whether or not the player can turn it.
         Runs = "runs",
         /// The avatar always moves ahead, and shoots or leaves a sprite behind.
         RunsAndShoots = "runs-and-shoots",
@@ -73,7 +73,7 @@ base::named_enum! {
         Eliminate = "eliminate",
         /// Moving sprites must be caught.
         Hunt = "hunt",
-        /// Items on the board must be taken: either all items of a type, or many of a resource that an exit
+        /// Items on the board must be taken: either all items of a type, or many units of a resource that an exit
         /// requires.
         Collect = "collect",
         /// A sprite must be reached or taken, but is inaccessible until the avatar has the key or the right
@@ -89,12 +89,12 @@ base::named_enum! {
         Guard = "guard",
         /// The avatar must stay alive until a certain tick.
         Survive = "survive",
-        /// The only goal is the score. Play cannot cause a win, or the clock wins in any case.
+        /// The only goal is the score. Play cannot cause a win, or the game is won when the time is up in any case.
         Score = "score",
     }
 }
 
-/// The minimum number for which a goal counts as being about quantity.
+/// The minimum number at which a goal counts as one of quantity.
 const MANY: i32 = 3;
 
 impl GoalKind {
@@ -138,8 +138,8 @@ impl GoalKind {
     }
 }
 
-/// Returns `true` if meeting a different type removes a type that must be removed to win, or creates a type that must
-/// exist to win, and one of the two types that meet moves by itself.
+/// Returns `true` if two types meet, one of which moves by itself, and their meeting serves a goal. It must remove a
+/// type that a win requires to be removed, or create one that a win requires to exist.
 fn moves_to_a_goal(analysis: &Analysis) -> bool {
     let moves = |written: SpriteType| {
         let types = analysis.game().sprite_types().filter(|&stype| analysis.applies(written, stype));
@@ -215,7 +215,7 @@ impl ChanceKind {
             .collect::<Vec<ChanceKind>>()[..]
         {
             [one] => one,
-            // Randomness decides in some other way, such as through bouncing missiles.
+            // Randomness has an effect in some other way, such as through bouncing missiles.
             [] => ChanceKind::Movers,
             _ => ChanceKind::Several,
         }

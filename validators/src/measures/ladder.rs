@@ -1,4 +1,4 @@
-//! Players from weak to strong on one level: each player's win rate, and the resulting difficulty.
+//! A ladder of players, from weak to strong, on one level: each player's win rate, and the resulting difficulty.
 
 use crate::case::Case;
 use agents::{Limits, Play, ReferencePlanner, Stopped, play_until};
@@ -16,8 +16,7 @@ fn play_once(
     limits: Limits,
     stopped: Stopped<'_>,
 ) -> Play {
-    // All players get the same seed in episodes with the same number, so that they can be compared episode by
-    // episode.
+    // In episodes with the same number, all players get the same seed, so that they can be compared episode by episode.
     let chance = case.seed.child("chance", run);
     let seed = case.seed.seed().child(player.name(), run);
     play_until(case.game, case.level, &mut player.player(seed), player.budget(), chance, limits, stopped)
@@ -201,7 +200,7 @@ impl LadderConfig {
         while played < self.plays && (played == 0 || spent < self.calls && !enough(&all) && !stopped()) {
             let runs = played..self.plays.min(played + ROUND);
             played = runs.end;
-            // The strongest players take longest, so they start first.
+            // The strongest players take longest, so their episodes start first.
             let tasks: Vec<(usize, u64)> = (0..players.len()).rev().cartesian_product(runs.clone()).collect();
             let done: Vec<Play> = tasks
                 .par_iter()
@@ -251,10 +250,9 @@ fn won_in(episode: &Episode) -> Option<f64> {
     (episode.outcome == Outcome::Won).then_some(episode.actions.len() as f64)
 }
 
-/// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2). The step
-/// efficiency is `1 − mean ticks of wins / ticks of the longest episode`. The reward is missing if all scores
-/// are equal, and the efficiency if there is no win. The weight of a missing value is distributed over the
-/// others.
+/// Returns the weighted mean of the win rate (0.6), the reward (0.2) and the step efficiency (0.2). The step efficiency
+/// is `1 − mean ticks of wins / ticks of the longest episode`. The reward is missing if all scores are equal, and the
+/// efficiency is missing if there is no win. The weight of a missing value is distributed over the others.
 fn ease(result: &PlayerResult, longest: f64) -> f64 {
     let Rate { wins, plays, .. } = result.rate;
     let won = wins as f64 / plays.max(1) as f64;

@@ -1,4 +1,4 @@
-//! Measures of a level in play: the axes of archives and of expressive range.
+//! Measures of a level in play, used as axes of archives and of expressive range.
 
 use crate::criterion::Criterion;
 use crate::measures::ladder::{Ladder, PlayerResult, Rate};
@@ -22,16 +22,16 @@ pub struct Measures {
     /// The number of pushes that moved or removed a sprite. In Sokoban, this is the number of pushes in the solution.
     pub pushes: usize,
     /// The effect of choices, from 0 to 1: the fraction of actions that lead to distinct states
-    /// ([`State::search_key`]), averaged over the witness's ticks. At 1, every action matters; at 1 /
-    /// actions, none does.
+    /// ([`State::search_key`]), averaged over the witness's ticks. A value of 1 means that every action matters, and 1
+    /// / actions means that none does.
     pub branching: f64,
     /// The mechanics used, from 0 to 1: the fraction of the game's interactions that the witness executes.
     /// Interactions with the screen edge do not count, because walls can make these guards idle.
     pub mechanics: f64,
     /// The interactions that the witness executes, as returned by [`used_rules`].
     pub rules: Vec<usize>,
-    /// The risk of losing along the witness, from 0 to 1: the probability that a random action, followed by
-    /// [`FORESIGHT`] − 1 more random actions, loses the game, averaged over the witness's ticks.
+    /// The risk of losing along the witness, from 0 to 1. It is the probability that [`FORESIGHT`] random actions in a
+    /// row lose the game, averaged over the witness's ticks.
     pub pressure: f64,
     /// The number of ticks in the shortest win, if it is proven to be the shortest.
     pub shortest: Option<usize>,
@@ -62,9 +62,9 @@ impl Measures {
     /// Measures a judged level, with or without a played ladder. Returns `None` if the report does not
     /// contain a witness. The same arguments give the same numbers on every machine.
     ///
-    /// Costs a replay of the witness, and trials of every action at up to 60 of its ticks: one for branching,
-    /// and three of up to [`FORESIGHT`] ticks for pressure. With five actions, the trials take at most 7,500
-    /// forward-model calls.
+    /// Costs a replay of the witness, and trials of every action at up to 60 of its ticks. There is one trial for
+    /// branching, and three trials of up to [`FORESIGHT`] ticks for pressure. With five actions, the trials take at
+    /// most 7,500 forward-model calls.
     pub fn of(
         analysis: &Analysis,
         level: &Level,
@@ -171,8 +171,8 @@ fn different(game: &Game, state: &State) -> f64 {
     keys.len() as f64 / actions.len() as f64
 }
 
-/// Returns the fraction of random futures that lose. All actions get the same random draws and are followed
-/// by the same actions.
+/// Returns the fraction of random futures that lose. All first actions get the same random draws and are followed by
+/// the same actions.
 fn danger(game: &Game, state: &State, seed: Seed) -> f64 {
     let (mut lost, mut all) = (0u64, 0u64);
     for action in actions(game, state) {
@@ -332,14 +332,14 @@ mod tests {
         assert_eq!((solved.ticks, solved.pushes, solved.rules.as_slice()), (2, 2, &[1, 3][..]));
         assert!((solved.mechanics - 2.0 / 6.0).abs() < 1e-12, "{solved:?}");
         assert_eq!(solved.pressure, 0.0);
-        // A move against a wall has no effect, and a step past the crate pushes nothing.
+        // A move against a wall has no effect, and a step past the crate does not push it.
         let stuck = check("wwwwww\nwAcw w\nw   ow\nwwwwww\n", &[Right, Right, Left]);
         assert_eq!(stuck.pushes, 0, "{stuck:?}");
     }
 
     #[test]
     fn branching_is_higher_in_open_space() {
-        // In a niche of the wall, the only option is to stay. In the open, five actions lead to five states.
+        // In a niche, all actions lead to the same state. In the open, five actions lead to five states.
         let caged = check("wwwwww\nwAw ow\nwww cw\nwwwwww\n", &[Up]);
         let free = check("wwwwww\nw    w\nw A  w\nw   ow\nw   cw\nwwwwww\n", &[Action::Nil]);
         assert!(caged.branching < free.branching && free.branching == 1.0, "{caged:?} {free:?}");

@@ -1,4 +1,4 @@
-//! Measures of a game in play, from its recorded episodes.
+//! Measures of a game in play, computed from its recorded episodes.
 
 use super::futures::{Futures, Standing};
 use super::guards::Guards;
@@ -25,27 +25,27 @@ pub struct PlayMeasures {
     pub chance: f64,
     /// The total number of distinct interactions executed in won episodes, not counting guards.
     pub mechanics: usize,
-    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). From a given moment, this is the
-    /// look-ahead needed to see that the episode is better than careless play: that it wins, does not lose,
-    /// or scores more. Careless play presses random keys, except keys that lose immediately. Moments from
-    /// which careless play also wins do not count, and the value is 0 if no moment counts.
+    /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). From a given moment, this is the look-ahead that
+    /// is needed to see that the episode is better than careless play, because it wins, does not lose, or scores more.
+    /// Careless play presses random keys, except keys that lose immediately. Moments from which careless play also wins
+    /// do not count, and the value is 0 if no moment counts.
     ///
-    /// The value is low in a game that rewards every step or kills an inactive player. It is high in a game
-    /// in which the good move looks for a long time like any other, or worse than a greedy one. The measure
-    /// shows how far away the consequences are. Unlike a planner's required look-ahead, its cost does not
-    /// grow with the branching factor.
+    /// The value is low in a game that rewards every step or kills an inactive player. It is high in a game in which a
+    /// good move looks like any other for a long time, or worse than a greedy one. The measure shows how far away the
+    /// consequences are. Unlike the look-ahead that a planner requires, its cost does not grow with the branching
+    /// factor.
     pub sight: f64,
-    /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures
-    /// that win minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean, over
-    /// all moments, of the square root of the deficit, or of 0 at moments at which the game does not lead. A
-    /// game that careless play can neither win nor lose has a drama of 0.
+    /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures that win
+    /// minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean, over all moments, of the
+    /// square root of the player's deficit, which is 0 at moments at which the game does not lead. A game that careless
+    /// play can neither win nor lose has a drama of 0.
     ///
     /// The measure follows Browne and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with three
     /// changes. The game is the opponent, careless futures give the value of a position, and the mean is
     /// taken over all moments, so that a single bad moment does not make a drama.
     pub drama: f64,
-    /// The mean number of times that the lead changes sides on the way to the win, at which the player leads.
-    /// This is Browne and Maire's *lead change*, but not divided by the number of moves.
+    /// The mean number of times that the lead changes sides on the way to the win. At the win, the player leads. This
+    /// is Browne and Maire's *lead change*, but not divided by the number of moves.
     pub lead_changes: f64,
     /// The number of levels with a measured episode.
     pub levels: usize,
@@ -252,7 +252,7 @@ mod tests {
         assert_eq!(found.pace, 2.0 / 5.0, "{found:?}");
         // These are `bounceForward` twice and `killSprite` once. The guards do not count.
         assert_eq!((found.density, found.mechanics), (3.0 / 5.0, 2), "{found:?}");
-        // Nothing can be lost, and the level is deterministic without a beetle.
+        // The player cannot lose, and the level is deterministic without a beetle.
         assert_eq!((found.drama, found.lead_changes, found.chance), (0.0, 0.0, 0.0), "{found:?}");
         // The win is seen 8, 4, 4, 2 and 1 ticks ahead.
         assert_eq!(found.sight, 3.8, "{found:?}");
@@ -269,8 +269,8 @@ mod tests {
 
     #[test]
     fn danger_raises_drama_and_shortens_planning_depth() {
-        // In the wasp's row, the wasp leads against an avatar that stays there. In the row below, the crate
-        // is one push away from its pit.
+        // In the wasp's row, the game leads against an avatar that stays there. In the row below, the crate is one push
+        // away from its pit.
         let danger = check("wwwwwwwww\nwA     sw\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);
         assert!(danger.drama > 0.9, "{danger:?}");
         let calm = check("wwwwwwwww\nwA      w\nwwwwwwwww\nw c o   w\nwwwwwwwww\n", &[Right; 1]);

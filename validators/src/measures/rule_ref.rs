@@ -1,4 +1,4 @@
-//! A user's reference to a rule of a game: `box hole`, `box hole killSprite`, or the rule's line number.
+//! A user's reference to a rule of a game, such as `box hole`, `box hole killSprite`, or the rule's line number.
 
 use crate::evidence::Line;
 use crate::measures::EDGE;
@@ -9,12 +9,12 @@ use itertools::Itertools;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RuleRef {
     text: String,
-    /// The indices of the lines in the description, each with the pair that must meet, or `None` to allow any
-    /// of the line's partners.
+    /// The indices of the matching lines in the description, each with the pair that must meet, or `None` if any of the
+    /// line's partners may meet.
     meant: Vec<(usize, Option<Pair>)>,
 }
 
-/// The sprite that is acted upon, and its partner, or `None` for the screen edge.
+/// The sprite type that the rule acts on, and its partner, or `None` for the screen edge.
 type Pair = (SpriteType, Option<SpriteType>);
 
 /// The error for a name that does not refer to any rule.
@@ -31,8 +31,8 @@ pub struct RuleRefError {
 const MAX_LISTED: usize = 4;
 
 impl RuleRef {
-    /// Parses a rule name, which is either the number of the rule's line in the InteractionSet, counted from
-    /// 1, or the names of the two sprites. Each sprite is named as on the line, or by a type below it.
+    /// Parses a rule name, which is either the number of the rule's line in the InteractionSet, counted from 1, or the
+    /// names of the two sprites. A sprite is named as on the line, or by a type below the one on the line.
     ///
     /// If the two sprites meet in more than one way, the effect must follow: `box hole killSprite`, or
     /// equivalently `box hole > killSprite`. If the two sprites occur only in the opposite order, the name

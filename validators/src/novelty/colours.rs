@@ -1,4 +1,4 @@
-//! Colour refinement: tells nodes apart by their neighbours (Weisfeiler and Leman 1968).
+//! Colour refinement, which distinguishes nodes by their neighbours (Weisfeiler and Leman 1968).
 //!
 //! A colour is a hash of the structure that it represents, so colours are comparable across games.
 
@@ -17,8 +17,8 @@ pub(super) fn colour(bytes: &[u8]) -> Colour {
 
 /// A graph's adjacency lists, for refinement.
 pub(super) struct Neighbours {
-    /// For each node, its neighbours, each with the role of the link between the two nodes, which includes
-    /// its direction.
+    /// For each node, its neighbours. Each comes with the role of the link between the two nodes, which includes the
+    /// link's direction.
     of: Vec<Vec<(Colour, usize)>>,
 }
 
@@ -51,7 +51,7 @@ impl Neighbours {
         self.of.iter().enumerate().map(&mut refine).collect()
     }
 
-    /// Refines the colours until another round distinguishes no further nodes.
+    /// Refines the colours until another round would not distinguish any further nodes.
     pub(super) fn settled(&self, mut colours: Vec<Colour>) -> Vec<Colour> {
         let mut kinds = count(&colours);
         loop {

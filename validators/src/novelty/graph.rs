@@ -1,5 +1,5 @@
-//! A game's rules as a graph. The nodes are types, rules and the objects that level characters place, and the
-//! edges lead from each rule to the types that it names.
+//! A game's rules as a graph. The nodes are types, rules and the sets of types that level characters place. The edges
+//! lead from each node to the types that it names.
 
 use crate::measures::EffectFamily;
 use engine::{Analysis, Clauses, Game, InteractionClause, Party, SpriteType, Term, Terms, TypeClause};
@@ -40,8 +40,8 @@ pub(super) struct RuleGraph {
     pub(super) stypes: Vec<SpriteType>,
 }
 
-/// The weights of nodes. Rules that nearly every game has weigh least: blocking at walls and at the screen
-/// edge, and what a character places. Terminations weigh most.
+/// The weights of nodes. Nodes that nearly every game has weigh least: blocking, handling of the screen edge, and
+/// placement by characters. Terminations weigh most.
 const FRAME: u32 = 1;
 const TYPE: u32 = 2;
 const RULE: u32 = 4;
@@ -103,9 +103,9 @@ impl RuleGraph {
                 sets.push(set);
             }
         }
-        // A placement that another placement includes is left out. In every game that gives `w` and `A` no
-        // other meaning, they place just a wall and an avatar. If such placements counted, the choice of
-        // characters could change the form.
+        // A placement that another placement includes is omitted. In every game that gives `w` and `A` no other
+        // meaning, they place only a wall and an avatar. If such placements counted, the choice of characters could
+        // change the form.
         let within = |set: &[usize], other: &[usize]| {
             set.len() < other.len() && set.iter().all(|at| other.contains(at))
         };
@@ -123,8 +123,8 @@ impl RuleGraph {
     }
 }
 
-/// Returns, for each type, `true` if a rule names the type or a character places it. `wall` and `avatar`, which exist
-/// in every game, are not part of a game's rules if the file does not use them.
+/// Returns, for each type, `true` if a rule names the type or a character places it. `wall` and `avatar` exist in every
+/// game, but are not part of a game's rules if the file does not use them.
 fn used(clauses: &Clauses) -> Vec<bool> {
     let mut used = vec![false; clauses.types.len()];
     let mut named = |terms: &Terms| {
@@ -184,7 +184,7 @@ fn labels_of_interaction(clause: &InteractionClause) -> [String; 3] {
 const COMPARED_PARAMETERS: [&str; 5] =
     ["scoreChange", "scoreChangeIfKilled", "time_to_live", "health", "total"];
 
-/// Writes the parameters in key order, each after a space. Omits types, which edges represent.
+/// Writes the parameters in key order, each after a space. Types are omitted, because edges represent them.
 fn spell(terms: &Terms, grain: Grain) -> String {
     let mut spelled: Vec<String> = Vec::new();
     for (key, term) in terms {

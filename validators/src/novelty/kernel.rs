@@ -5,14 +5,14 @@
 //! JMLR 12, 2011). Counts are compared by intersection, as in the optimal-assignment form of the kernel
 //! (Kriege, Giscard and Wilson, "On valid optimal assignment kernels", NIPS 2016).
 //!
-//! With products of counts instead, ten walls would outweigh everything else. The intersection is divided by
-//! the union, which makes the distance a metric on the counts: it is 0 only for equal counts.
+//! With products of counts instead, ten walls would outweigh everything else. The intersection is divided by the union,
+//! which makes the distance a metric on the counts. It is 0 only for equal counts.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
-/// The refinement rounds for each grain, and a colour's weight in each round. Early rounds weigh more, because one
+/// The refinement rounds for each grain, and a colour's weight in each round. Early rounds weigh more, because a single
 /// changed rule alters the late colours of all nearby nodes.
 const ROUNDS: [(Grain, &[u32]); 3] =
     [(Grain::Coarse, &[4, 4, 2]), (Grain::Medium, &[4, 4, 2]), (Grain::Fine, &[1, 1, 0, 1])];

@@ -1,17 +1,15 @@
 //! Canonical labelling, which produces the same text for all games that differ only in names and order.
 //!
-//! After the colours are refined, one of the types that still share a colour is individualized, and the
-//! colours are refined again, until no colour is shared. The smallest of all texts produced in this way is
-//! the canonical text (McKay and Piperno, "Practical graph isomorphism, II", 2014). Types that can be
-//! exchanged without changing the rules, and branches found equivalent to an earlier branch, are
-//! individualized only once.
+//! After the colours are refined, one of the types that still share a colour is individualized. The colours are then
+//! refined again, until no types share a colour. The smallest of all texts produced in this way is the canonical text
+//! (McKay and Piperno, "Practical graph isomorphism, II", 2014). If several types can be exchanged without changing the
+//! rules, only one of them is individualized. Branches found to be equivalent to an earlier branch are not searched.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};
 use itertools::Itertools;
 
-/// The maximum number of texts to write. Games whose types are distinguished by colours, or can be exchanged,
-/// need far fewer texts.
+/// The maximum number of texts to write. Games whose types differ in colour, or can be exchanged, need far fewer texts.
 ///
 /// Beyond the limit, the first type with a given colour represents all types with this colour. The result is
 /// the same if these types are equivalent, as they are unless the rule graph is adversarial. In an
@@ -65,7 +63,7 @@ impl Labelling<'_> {
             let started = self.individualize(colours, other);
             let quick = self.first_text(started.clone());
             let known = seen.get_or_insert_with(|| best.text.clone());
-            // A different choice gives the same text, so an automorphism of the rules maps one choice to the other.
+            // An earlier choice gave the same text, so an automorphism of the rules maps one choice to the other.
             if quick.text == *known {
                 continue;
             }
@@ -94,7 +92,7 @@ impl Labelling<'_> {
         self.neighbours.settled(colours)
     }
 
-    /// Returns the text that results from always individualizing the first of the types with equal colours.
+    /// Returns the text that results if the first of the types with equal colours is always individualized.
     fn first_text(&mut self, mut colours: Vec<Colour>) -> Labelled {
         while let Some(&first) = self.first_cell(&colours).first() {
             colours = self.individualize(&colours, first);

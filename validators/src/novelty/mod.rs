@@ -24,14 +24,15 @@ use kernel::Features;
 /// - lines that are not enabled;
 /// - `wall` and `avatar`, if the file does not declare them and no rule names them.
 ///
-/// Games whose rules run in a different order can play differently and yet share a form. Such games count as one game.
+/// Games whose rules run in a different order may play differently and still share a form. Such games count as one
+/// game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameForm {
     digest: Digest,
     features: Features,
 }
 
-/// The distance below which two games count as duplicates: the same rules with different numbers or in a
+/// The distance below which two games count as duplicates, which have the same rules with different numbers or in a
 /// different theme.
 pub const NEAR: f64 = 0.3;
 
@@ -43,8 +44,8 @@ impl GameForm {
         GameForm { digest, features: Features::of(&graph) }
     }
 
-    /// Returns the digest, which depends only on the parts that count. Different rules never share a digest.
-    /// Equal rules always do, except in games with many types that look alike but are not equivalent, as the
+    /// Returns the digest, which depends only on the parts that count. Different rules never share a digest. Equal
+    /// rules always share a digest, except in games with many types that look alike but are not equivalent, as the
     /// source of `labelling` explains.
     pub fn digest(&self) -> Digest {
         self.digest
@@ -124,7 +125,8 @@ mod tests {
         assert_eq!(one.digest(), chase(&other).digest());
     }
 
-    /// The types chase each other in pairs, so exchanging only one type does not map the game onto itself.
+    /// The types chase each other in pairs, so exchanging two types of different pairs does not map the game onto
+    /// itself.
     #[test]
     fn equal_pairs_are_canonicalized() {
         let pairs: Vec<usize> = (0..16).map(|at| at ^ 1).collect();

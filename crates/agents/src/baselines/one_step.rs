@@ -17,7 +17,7 @@ base::with_defaults! {
     pub struct OneStepConfig {
         /// The heuristic that evaluates the next states.
         pub heuristic: Heuristic = Heuristic::Simple,
-        /// The number of times to try each action, at least 1. The results of all tries are averaged. The
+        /// The number of times that each action is tried, at least 1. The results of all tries are averaged. The
         /// reference tries each action once, so a single random draw decides.
         pub samples: u32 = 1,
     }

@@ -1,12 +1,12 @@
-//! Random players: the baseline of every comparison (`spec/04` §7).
+//! Random players, the baseline of every comparison (`spec/04` §7).
 
 use crate::planner::{Budget, Planner};
 use base::{Sampler, Seed};
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// A player that draws uniformly among the avatar's actions: the reference's `simpleRandom`. Only players
-/// created by [`Random::with_nil`] also draw [`Action::Nil`].
+/// A player that draws uniformly from the avatar's actions, like the reference's `simpleRandom`. Only players created
+/// by [`Random::with_nil`] also draw [`Action::Nil`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Random {
     with_nil: bool,

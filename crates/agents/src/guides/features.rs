@@ -1,22 +1,23 @@
-//! The features by which novelty is measured: the sprites' positions and the avatar's resources.
+//! The features that determine novelty: the sprites' positions and the avatar's resources.
 
 use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// The number of amounts of a resource that features distinguish, and the number of sprite counts.
+/// The number of different amounts that features distinguish for each resource, and the number of different sprite
+/// counts.
 const AMOUNTS: usize = 16;
 
-/// The atoms of all states reachable from a start state. An atom is a fact such as "a sprite of this type is
-/// in this cell" or "the avatar has this amount of this resource". Types that never change are omitted.
+/// The atoms that can occur in any state reachable from a start state. An atom is a fact such as "a sprite of this
+/// type is in this cell" or "the avatar has this amount of this resource". Types that never change are omitted.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Features {
     columns: i32,
     rows: i32,
     /// The types whose positions are features, as indices into the registry.
     types: Vec<u16>,
-    /// The number of avatar types, which come first in `types`. Their orientation counts too, because some avatars turn before
-    /// they move.
+    /// The number of avatar types, which come first in `types`. Their orientation is also a feature, because some
+    /// avatars turn before they move.
     avatars: usize,
     /// The types whose sprite count is a feature.
     numbers: Vec<u16>,
@@ -41,9 +42,9 @@ impl Features {
         Features { columns, rows, types, avatars, numbers: Vec::new(), resources }
     }
 
-    /// Returns the features from [`Features::of`], but without the positions of types that move by themselves
-    /// or soon vanish. Their positions change constantly, regardless of the player. Only the sprite counts of
-    /// such types are features.
+    /// Returns the features from [`Features::of`], except the positions of types that move on their own or soon
+    /// vanish. Such positions change constantly, whatever the player does. For these types, only the sprite counts
+    /// are features.
     pub(crate) fn without_moving_types(
         analysis: &Analysis,
         abstraction: &StateAbstraction,
@@ -68,12 +69,12 @@ impl Features {
         self.cells() * (self.types.len() + (FACINGS - 1) * self.avatars)
     }
 
-    /// Returns the number of cells, plus one for everything outside the board.
+    /// Returns the number of cells, plus one for all positions outside the board.
     fn cells(&self) -> usize {
         (self.columns * self.rows) as usize + 1
     }
 
-    /// Visits a state's atoms, some of them possibly twice. Cost: O(sprites of types that change).
+    /// Visits the atoms of a state, possibly some of them twice. Cost: O(sprites of types that change).
     pub(crate) fn each(&self, state: &State, mut atom: impl FnMut(usize)) {
         let block = state.block();
         let cells = self.cells();

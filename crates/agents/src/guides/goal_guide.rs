@@ -1,16 +1,16 @@
-//! A measure of a state's progress towards a win, derived from the meaning of the rules.
+//! A measure of progress towards a win, derived from the meaning of the rules.
 //!
 //! The measure has two parts. *Progress* counts the sprites that must still disappear or appear for a winning
-//! termination, and the keys that the avatar holds. *Closeness* is the proximity of the next useful target,
-//! measured around obstacles. Closeness stays below 1, so that taking a target is worth more than standing in
-//! front of the next one.
+//! termination, and the keys that the avatar holds. *Closeness* is the proximity of the next useful target, with
+//! paths around obstacles. Closeness is at most 1, so that taking a target is worth more than standing in front of
+//! the next one.
 
 use base::Digest;
 use engine::analysis::{Attainable, Fate, Goal, Harm, Key, Removal, Touch};
 use engine::{Analysis, Game, SpriteType, State};
 use std::collections::VecDeque;
 
-/// The distance in cells at which closeness is one half.
+/// The distance, in cells, at which closeness is one half.
 const HALF_WAY: f64 = 8.0;
 const UNREACHED: u16 = u16::MAX;
 
@@ -19,15 +19,15 @@ const UNREACHED: u16 = u16::MAX;
 pub(crate) struct GoalGuide {
     digest: Digest,
     analysis: Analysis,
-    /// The winning terminations that depend on sprite counts and that play can satisfy.
+    /// The winning terminations that depend on sprite counts and can be satisfied through play.
     goals: Vec<Goal>,
     /// The targets for each avatar type, in the order of the analysis.
     targets: Vec<Targets>,
-    /// Pairs of a pushable type and the type onto which to push it.
+    /// Pairs of a pushable type and the type onto which it must be pushed.
     pushes: Vec<(SpriteType, SpriteType)>,
 }
 
-/// The roles of the types in a game for avatars of one type.
+/// The roles that a game's types have for avatars of one type.
 #[derive(Clone, Debug)]
 struct Targets {
     avatar: SpriteType,
@@ -42,7 +42,7 @@ struct Target {
     needs: Option<(SpriteType, i32)>,
 }
 
-/// Buffers for the distance search.
+/// Buffers for the search for distances.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Distances {
     steps: Vec<u16>,
@@ -50,7 +50,7 @@ pub(crate) struct Distances {
 }
 
 impl GoalGuide {
-    /// Derives the targets from the rules. Costs as much as [`Analysis::of`].
+    /// Derives the targets from the rules. Cost: one [`Analysis::of`].
     pub(crate) fn of(game: &Game) -> GoalGuide {
         let analysis = Analysis::of(game);
         let wanted = |goal: &&Goal| {
@@ -82,8 +82,8 @@ impl GoalGuide {
         self.digest == game.digest()
     }
 
-    /// Returns a state's progress: minus one for each sprite that must still disappear or appear, plus up to
-    /// one for the held keys.
+    /// Returns the progress of a state: minus one for each sprite that must still disappear or appear, plus at most
+    /// one for the keys that the avatar holds.
     pub(crate) fn progress(&self, state: &State) -> f64 {
         let missing = self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min();
         let avatar = state.avatar_type();
@@ -98,7 +98,8 @@ impl GoalGuide {
         keys - f64::from(missing.unwrap_or(0).min(1000))
     }
 
-    /// Returns the closeness of the nearest useful target, in [0, 1), or 0 if there is no target. Cost: O(cells + sprites).
+    /// Returns the closeness of the nearest useful target, from 0 to 1, or 0 if there is no target. Cost: O(cells +
+    /// sprites).
     pub(crate) fn closeness(&self, state: &State, distances: &mut Distances) -> f64 {
         let Some(targets) = state.avatar_type().and_then(|avatar| self.targets_of(avatar)) else {
             return 0.0;
@@ -108,7 +109,7 @@ impl GoalGuide {
         self.flood(targets, state, at, distances);
         let (columns, rows) = state.size();
         let mut nearest = f64::INFINITY;
-        // The distance of a cell that cannot be entered is its nearest neighbour's distance plus one.
+        // If a cell cannot be entered, its distance is that of its nearest neighbour plus one.
         let mut consider = |place: (i32, i32), further: f64, distances: &Distances| {
             let (x, y) = cell(state, place);
             let reached = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)].into_iter().filter_map(|(dx, dy)| {
@@ -118,7 +119,7 @@ impl GoalGuide {
                 (steps != UNREACHED).then(|| f64::from(steps) + f64::from(u8::from((dx, dy) != (0, 0))))
             });
             let straight = f64::from((x - at.0).abs() + (y - at.1).abs());
-            // A target without a known path is worth little, but more if it is near.
+            // A target to which no path is known has little value, but more value if it is near.
             let steps = reached.fold(f64::INFINITY, f64::min).min(40.0 + 4.0 * straight);
             nearest = nearest.min(steps + further);
         };
@@ -147,7 +148,7 @@ impl GoalGuide {
         self.targets.iter().find(|targets| targets.avatar == avatar)
     }
 
-    /// Computes the number of steps from a cell to all other cells, around obstacles.
+    /// Computes the number of steps from a cell to every other cell, around obstacles.
     fn flood(&self, targets: &Targets, state: &State, from: (i32, i32), distances: &mut Distances) {
         let (columns, rows) = state.size();
         let Distances { steps: distances, queue } = distances;
@@ -252,11 +253,11 @@ mod tests {
 
     #[test]
     fn keys_come_before_doors_and_paths_avoid_walls() {
-        // One hive must go, and the key is two steps away. The hive beside the bear is still useless.
+        // One hive must be removed, and the key is two steps away. The hive beside the bear is useless for now.
         check("hb k", &[], -1.0, 2.0);
-        // With the key, the hive is the target.
+        // Once the bear has the key, the hive is the target.
         check("hb k", &[Action::Right, Action::Right], 0.0, 3.0);
-        // The paths lead around the wall and around the trap. No hive must go here.
+        // The paths lead around the wall and the trap. There is no hive to remove here.
         check("bwk\n w \n   ", &[], 0.0, 6.0);
         check("btk\n t \n   ", &[], 0.0, 6.0);
         // There is no useful target, because there is neither a key nor a path.

@@ -4,12 +4,12 @@
 use engine::{Category, Game, Outcome, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// An evaluation of states, for players with a short look-ahead.
+/// An evaluation of states, for players that look only a few ticks ahead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Heuristic {
-    /// The reference's `WinScoreHeuristic`: the score, but 1000 for a win and −1000 for a loss, regardless of
-    /// the score. In a game with larger scores, continuing to play is therefore better than winning.
+    /// The reference's `WinScoreHeuristic`: the score, or 1000 for a win and −1000 for a loss, regardless of the
+    /// score. In a game with larger scores, it is therefore better to keep playing than to win.
     WinScore,
     /// The reference's `SimpleStateHeuristic`: the score minus a term for the distance to the nearest portal,
     /// or to the nearest NPC if there are no portals. Distances are in squared pixels. NPCs attract whether
@@ -47,15 +47,15 @@ fn simple(game: &Game, root: &State, state: &State) -> f64 {
     }
 }
 
-/// Summarises the observed sprites of one category.
+/// A summary of the observed sprites of one category.
 struct Sighting {
-    /// `true` if a type in the category existed at the root or exists now. In the reference, a copied state
+    /// `true` if a type of the category exists now, or existed in the root state. In the reference, a copied state
     /// remembers the types of the original.
     known: bool,
     count: usize,
-    /// The squared distance in pixels from the avatar to the nearest sprite of the last type that has any
-    /// sprites. A sprite of a different type may be nearer, because the reference iterates over the types and
-    /// keeps only the last result.
+    /// The squared distance, in pixels, from the avatar to the nearest sprite of the last type that has any sprites.
+    /// Sprites of other types may be nearer, because the reference iterates over the types and keeps only the last
+    /// result.
     nearest: Option<f64>,
 }
 

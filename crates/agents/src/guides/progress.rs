@@ -1,9 +1,9 @@
-//! A state's distance from a win.
+//! The distance of a state from a win.
 
 use engine::State;
 use engine::analysis::{Analysis, Attainable, Condition, Goal};
 
-/// The winning goals that measure the distance from a win.
+/// The winning goals by which the distance from a win is measured.
 #[derive(Clone, Debug)]
 pub(crate) struct Progress<'a> {
     analysis: &'a Analysis,

@@ -1,5 +1,5 @@
-//! Random search: the reference's `sampleRS` (`spec/04` §4), a baseline for evolution with the same number of
-//! calls.
+//! Random search, like the reference's `sampleRS` (`spec/04` §4). It is a baseline for evolution with the same number
+//! of calls.
 
 use super::sequences::Sequences;
 use crate::guides::heuristics::Heuristic;

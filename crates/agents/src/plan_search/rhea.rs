@@ -1,5 +1,4 @@
-//! Rolling-horizon evolution: the reference's `sampleRHEA`, with a budget in forward-model calls (`spec/04`
-//! §3).
+//! Rolling-horizon evolution, like the reference's `sampleRHEA`, with a budget in forward-model calls (`spec/04` §3).
 //!
 //! See Perez Liebana et al. 2013, "Rolling horizon evolution versus tree search for navigation in
 //! single-player real-time games".
@@ -16,8 +15,7 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RheaConfig {
-        /// The number of plans in the population. The population is smaller if the budget is too small to try
-        /// all plans.
+        /// The number of plans in the population. It is smaller if the budget does not suffice to try all plans.
         pub population: usize = 10,
         /// The length of a plan in ticks.
         pub horizon: usize = 10,
@@ -25,8 +23,8 @@ base::with_defaults! {
         pub mutations: usize = 1,
         /// The heuristic that evaluates a plan's final state.
         pub heuristic: Heuristic = Heuristic::WinScore,
-        /// `true` to start from the previous decision's plans, shifted by one tick and with a random last
-        /// action. The reference begins each decision with random plans instead. Off by default.
+        /// `true` to start each decision from the plans of the previous decision, shifted by one tick and completed
+        /// with a random last action. The reference starts each decision from random plans instead. Off by default.
         pub shift: bool = false,
     }
 }
@@ -53,7 +51,7 @@ impl Rhea {
         Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
     }
 
-    /// Creates the first generation. Its size is limited by the budget, but it contains at least one plan.
+    /// Creates the first generation. The budget limits its size, but there is at least one plan.
     fn first(
         &mut self,
         sequences: &mut Sequences<'_>,
@@ -84,9 +82,9 @@ impl Rhea {
         population
     }
 
-    /// Creates a child of two different plans. Each gene comes from one of the two plans, and then a few
-    /// genes are redrawn. If there is only one plan, creates a mutant of that plan. The reference's
-    /// tournament is as large as the set of parents, so it does not select.
+    /// Creates a child of two different plans. Each gene comes from one of the two plans, and then a few genes are
+    /// redrawn. If there is only one plan, creates a mutant of that plan. There is no selection of parents, because
+    /// the reference's tournament is as large as the set of parents.
     fn child(
         &self,
         population: &[Individual],
@@ -110,8 +108,7 @@ impl Rhea {
     }
 }
 
-/// Sorts the plans by value, best first. The sort is stable, so among plans of equal value the oldest plan
-/// comes first.
+/// Sorts the plans by value, best first. The sort is stable, so the oldest of several equally good plans comes first.
 fn best_first(population: &mut [Individual]) {
     population.sort_by(|a, b| b.value.total_cmp(&a.value));
 }
@@ -123,7 +120,7 @@ impl Planner for Rhea {
         let mut sequences = Sequences::new(game, state, heuristic, budget, self.scratch.take());
         let mut population = self.first(&mut sequences, budget, &mut decision);
         while !sequences.is_spent() {
-            // The best plan survives. Children replace all other plans, and there is at least one child.
+            // The best plan survives, and children replace all other plans. There is at least one child.
             let mut next = Vec::with_capacity(population.len());
             for _ in 1..population.len().max(2) {
                 if sequences.is_spent() {
@@ -134,8 +131,8 @@ impl Planner for Rhea {
                 next.push(Individual { genes, value });
             }
             let size = population.len();
-            // If the budget ran out, some plans survive that would otherwise have been replaced. None of them
-            // is better than the best plan.
+            // If the budget runs out, some plans survive that would otherwise have been replaced. None of them is
+            // better than the best plan.
             population.splice(1..(1 + next.len()).min(size), next);
             best_first(&mut population);
             population.truncate(size);

@@ -1,4 +1,4 @@
-//! Plans as action sequences, for the planners that search among such sequences: random search and evolution.
+//! Plans as action sequences, for the planners that search for such sequences: random search and evolution.
 
 use crate::guides::heuristics::Heuristic;
 use crate::planner::{Budget, Decision};
@@ -54,7 +54,7 @@ impl<'a> Sequences<'a> {
         self.alphabet[usize::from(gene)]
     }
 
-    /// Returns the value of the state after a sequence, or at the end of the episode if it comes first. If
+    /// Returns the value of the state after a sequence, or after the end of the episode if the episode ends first. If
     /// the budget runs out earlier, returns the value of the state at that point, as the reference does.
     pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
         decision.fork_with_random_future(&mut self.copy, self.state);

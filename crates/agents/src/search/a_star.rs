@@ -1,4 +1,4 @@
-//! A* with transpositions, which finds the shortest win or proves that no win exists.
+//! A* search with transpositions, which finds the shortest win or proves that there is no win.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
@@ -6,12 +6,13 @@ use crate::play::Stopped;
 use engine::State;
 use engine::analysis::Analysis;
 
-/// Searches for the shortest win (Hart, Nilsson and Raphael 1968). Expands states in ascending order of a
-/// lower bound on the number of ticks in a win through the state. The bound is the number of ticks to reach
-/// the state plus the [`Pushes`] that it needs. Without pushes, this is a breadth-first search.
+/// Searches for the shortest win (Hart, Nilsson and Raphael 1968). States are expanded in ascending order of a lower
+/// bound on the number of ticks in a win through the state. The bound is the number of ticks to reach the state, plus
+/// the number of [`Pushes`] that the state needs. If no pushes are needed, this is a breadth-first search.
 ///
-/// A proof requires a state from which play is deterministic ([`Analysis::is_deterministic_from`]). Cost: at
-/// most the number of states times the number of actions, in calls. Each call costs O(size of a state).
+/// The result is proven only if play is deterministic from the initial state onwards
+/// ([`Analysis::is_deterministic_from`]). Cost: the number of states times the number of actions, at most, in calls.
+/// Each call costs O(size of a state).
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     a_star_until(analysis, pushes, start, limits, &|| false)
 }
@@ -27,8 +28,8 @@ pub(crate) fn a_star_until(
     Tree::new(analysis, pushes, start, limits).until(stopped).search(|_, _| Buckets::default())
 }
 
-/// Open states in buckets, one for each estimate in ticks. Among states with equal estimates, the most recent
-/// comes first.
+/// Open states in buckets, one bucket per estimate in ticks. Among states with equal estimates, the most recent comes
+/// first.
 #[derive(Default)]
 struct Buckets {
     buckets: Vec<Vec<(NodeId, StoredState)>>,
@@ -39,9 +40,8 @@ impl Frontier for Buckets {
     const SHORTEST: bool = true;
 
     fn push(&mut self, _: &State, node: NodeId, depth: u32, least: u32, kept: StoredState) {
-        // A tick has at most one push, and a win needs at least one more tick. The remaining estimate
-        // therefore never falls by more than one per tick, and the shortest path to a state is known when it
-        // is expanded.
+        // A tick has at most one push, and a win takes at least one more tick. The remaining estimate therefore never
+        // falls by more than one per tick. When a state is expanded, the shortest path to it is therefore known.
         let estimate = (depth + least.max(1)) as usize;
         if self.buckets.len() <= estimate {
             self.buckets.resize_with(estimate + 1, Vec::new);

@@ -1,4 +1,4 @@
-//! Best-first width search, which finds some win quickly, but not the shortest win.
+//! Best-first width search, which finds a win quickly, but not necessarily the shortest one.
 
 use super::tree::{Frontier, NodeId, StoredState, Tree};
 use super::{Pushes, SearchLimits, Searched};
@@ -9,16 +9,16 @@ use engine::State;
 use engine::analysis::Analysis;
 use std::collections::BTreeMap;
 
-/// Searches for any win. Among states equally far from the goal, the search prefers novel states: states in
-/// which a type has a sprite in a new cell, or in which the avatar holds a new amount of a resource. Ties go
-/// to states closer to the goal, then to states that need fewer [`Pushes`].
+/// Searches for any win. Among states that are equally far from the goal, the search prefers novel states. In a novel
+/// state, a type has a sprite in a new cell, or the avatar holds a new amount of a resource. Ties go to states closer
+/// to the goal, and then to states that need fewer [`Pushes`].
 ///
 /// The search is described in Lipovetzky and Geffner 2017, "Best-first width search: exploration and
 /// exploitation in classical planning". Its goal counter consists of the number of sprites that must
 /// disappear or appear, and the score.
 ///
-/// Unlike in the paper, states that are not novel are not pruned. The search is therefore complete: if it
-/// finds no win, none exists. The conditions and costs are those of [`a_star`](super::a_star).
+/// Unlike in the paper, states that are not novel are not pruned. The search is therefore complete: if it finds no
+/// win, there is none. Conditions and costs are the same as for [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     best_first_until(analysis, pushes, start, limits, &|| false)
 }
@@ -48,8 +48,8 @@ struct Queue<'a> {
     open: BTreeMap<(Rank, NodeId), StoredState>,
 }
 
-/// A state's rank. Novel states come first. The remaining criteria are the distance from the goal plus the
-/// required pushes, the score, and the depth.
+/// A state's rank. Novel states come first. The other criteria are, in this order, the distance from the goal plus
+/// the required pushes, the score, and the depth.
 type Rank = (u32, u32, i64, u32);
 
 impl Frontier for Queue<'_> {

@@ -1,8 +1,7 @@
-//! A limit on the total memory for all systematic searches in the process.
+//! A limit on the total memory of all systematic searches in the process.
 //!
-//! The limit is useful if many searches run at the same time: a search that outgrows [`FREE`] waits until
-//! enough memory is available for its own limit. All results are therefore the same as without the
-//! process-wide limit.
+//! The limit is useful if many searches run at the same time. A search that outgrows [`FREE`] waits until enough
+//! memory is available for its own limit. All results are therefore the same as without the process-wide limit.
 
 use crate::play::Stopped;
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -10,7 +9,7 @@ use std::time::Duration;
 
 /// The number of bytes that each search may use at any time.
 const FREE: usize = 64 << 20;
-/// The number of bytes that a process uses besides its searches: for rules, levels, episodes and results.
+/// The number of bytes that a process uses for purposes other than searches: rules, levels, episodes and results.
 const REST: usize = 256 << 20;
 /// The number of bytes that the largest typical search needs. See
 /// [`SearchLimits::calls`](super::SearchLimits::calls).
@@ -23,12 +22,12 @@ struct Room {
     left: usize,
 }
 
-/// The process-wide memory for searches, which is initially unlimited.
+/// The memory for searches in the whole process, initially unlimited.
 static ROOM: Mutex<Option<Room>> = Mutex::new(None);
 /// Notified when a search returns its memory.
 static GIVEN_BACK: Condvar = Condvar::new();
 
-/// The error for a memory limit too small for one search.
+/// The error for a memory limit that is too small for even one large search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{threads} search threads need at least {} MiB", .least >> 20)]
 pub struct TooLittle {
@@ -38,8 +37,8 @@ pub struct TooLittle {
     pub least: usize,
 }
 
-/// Limits this process to about `bytes` bytes of memory, assuming that at most `threads` threads search at the
-/// same time. Searches wait for each other if necessary. No result depends on the limit.
+/// Limits this process to about `bytes` bytes of memory. At most `threads` threads are assumed to search at the same
+/// time. Searches wait for each other if necessary. No result depends on the limit.
 ///
 /// # Errors
 ///
@@ -55,7 +54,7 @@ pub fn bound(bytes: usize, threads: usize) -> Result<(), TooLittle> {
     Ok(())
 }
 
-/// A memory reservation for one search, which is released when it is dropped.
+/// A memory reservation for one search, which is released on drop.
 #[derive(Default)]
 pub(super) struct Lease {
     bytes: usize,
@@ -63,9 +62,9 @@ pub(super) struct Lease {
 }
 
 impl Lease {
-    /// Reserves memory for a search that uses `bytes` bytes and may grow to `limit`, waiting for memory if
-    /// necessary. Does not wait if the search is small or there is no process-wide limit. Returns `false` if
-    /// the search was stopped while it waited.
+    /// Reserves memory for a search that uses `bytes` bytes and may grow to `limit`. Waits for memory if necessary,
+    /// unless the search is small or there is no process-wide limit. Returns `false` if the search was stopped while
+    /// it waited.
     pub(super) fn grow(&mut self, bytes: usize, limit: usize, stopped: Stopped<'_>) -> bool {
         if self.is_held || bytes <= FREE {
             return true;

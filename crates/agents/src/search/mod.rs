@@ -1,6 +1,6 @@
-//! Systematic search for wins. From a state with a deterministic future, the search proves the minimum number
-//! of ticks in a win, or proves that the level cannot be won. In other games, the search explores one random
-//! future, as if the player foresaw all randomness, and proves nothing.
+//! Systematic search for wins. If the future of a state is deterministic, the search proves the minimum number of
+//! ticks in a win, or proves that there is no win. Otherwise, the search explores one random future, as if the player
+//! foresaw all randomness, and proves nothing.
 //!
 //! States are distinguished by [`engine::analysis::StateAbstraction`] and stored as differences from the
 //! start ([`engine::Packed`]). The cost is counted in forward-model calls. A search stops at the first win,
@@ -22,7 +22,7 @@ pub use pushes::Pushes;
 use engine::Action;
 use serde::{Deserialize, Serialize};
 
-/// A search's limits.
+/// The limits of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SearchLimits {
     /// The maximum number of forward-model calls.
@@ -32,16 +32,16 @@ pub struct SearchLimits {
 }
 
 impl SearchLimits {
-    /// Returns limits of `calls` calls and one gibibyte.
+    /// Returns limits of `calls` calls and 1 GiB of memory.
     pub fn calls(calls: u64) -> SearchLimits {
         SearchLimits { calls, bytes: 1 << 30 }
     }
 }
 
-/// A search's result.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Searched {
-    /// The answer about the level's winnability, as far as known.
+    /// The answer to the question whether the level can be won, as far as known.
     pub answer: Answer,
     /// The cost of the search in forward-model calls.
     pub calls: u64,
@@ -64,9 +64,9 @@ pub enum Answer {
     },
     /// No win exists, because the search has covered all reachable states.
     Impossible,
-    /// The answer is unknown, because the search has spent its budget in calls or covered all states of one
+    /// The answer is unknown, because the search has spent its call budget, or has covered all states of only one
     /// random future.
     OutOfCalls,
-    /// The answer is unknown, because the memory was full.
+    /// The answer is unknown, because the memory limit was reached.
     OutOfMemory,
 }

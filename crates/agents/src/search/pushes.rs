@@ -1,5 +1,5 @@
-//! A lower bound on the number of pushes between a state and a win. A box in a corner, for example, can never
-//! be pushed to its goal.
+//! A lower bound on the number of pushes between a state and a win. For example, a box in a corner can never be
+//! pushed to its goal.
 
 use base::Seed;
 use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
@@ -8,14 +8,14 @@ use smallvec::SmallVec;
 
 /// Lower bounds on the number of pushes that a level's pushable sprites need.
 ///
-/// Each bound is for one cell and one type that moves only by being pushed. The bound is the minimum number
-/// of pushes after which a rule may remove the sprite or turn it into a sprite that may stay. The bounds
-/// generalise the distances and the "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer 2001,
-/// "Sokoban: enhancing general single-agent search methods using domain knowledge"), derived from the rules.
+/// Each bound is for one cell and one type that moves only when it is pushed. The bound is the minimum number of
+/// pushes after which a rule may remove the sprite or turn it into a sprite that may stay. The bounds are derived
+/// from the rules. They generalise the distances and "simple deadlocks" of Sokoban solvers (Junghanns and Schaeffer
+/// 2001, "Sokoban: enhancing general single-agent search methods using domain knowledge").
 ///
-/// Each sprite is treated as if it were alone on the board, and everything else is assumed to be as helpful
-/// as [`Reach`] allows. So no state needs fewer pushes than the bound, and a state reported as dead cannot be
-/// won.
+/// Each sprite is treated as if it were alone on the board, and everything else is assumed to be as helpful as
+/// [`Reach`] allows. Therefore, no state needs fewer pushes than the bound, and a state that is reported as dead
+/// cannot be won.
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
@@ -26,24 +26,23 @@ pub struct Pushes {
 /// A goal that requires the removal of sprites.
 #[derive(Clone, Debug)]
 struct Need {
-    /// The number of sprites that may remain.
+    /// The number of sprites that are allowed to remain.
     limit: usize,
-    /// The counted types, each with the number of pushes that a sprite needs from each cell.
+    /// The counted types, each with the number of pushes needed by a sprite in each cell.
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
-/// The value for a sprite that no number of pushes can help.
+/// The value for a sprite that cannot be helped by any number of pushes.
 const NEVER: u16 = u16::MAX;
 
 impl Pushes {
-    /// Computes the bounds. Costs as much as [`Analysis::reach`], plus O(types × interactions × cells).
+    /// Computes the bounds. Cost: one [`Analysis::reach`], plus O(types × interactions × cells).
     pub fn of(analysis: &Analysis, level: &Level) -> Pushes {
         find(analysis, level).unwrap_or_default()
     }
 
-    /// Returns the minimum number of pushes, and hence of ticks, that a state in the level needs. Returns 0
-    /// if no bound is known, and `None` if the state can no longer be won. Cost: O(sprites that must
-    /// disappear).
+    /// Returns the minimum number of pushes, and hence of ticks, that a state of the level needs. Returns 0 if no
+    /// bound is known, or `None` if the state can no longer be won. Cost: O(sprites that must disappear).
     pub fn least(&self, state: &State) -> Option<u32> {
         if self.needs.is_empty() {
             return Some(0);
@@ -64,7 +63,7 @@ impl Need {
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // The sprites that may remain are assumed to be the ones that need the most pushes.
+        // The sprites that need the most pushes are assumed to be those that remain.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));
@@ -109,8 +108,8 @@ fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     Some(Pushes { columns: level.columns() as i32, needs: needs? })
 }
 
-/// Returns `true` if all avatars move by whole cells, face the direction of their moves, and are moved by
-/// nothing else.
+/// Returns `true` if all avatars move by whole cells and face the direction in which they move, and nothing else
+/// moves them.
 fn steps_are_whole(analysis: &Analysis) -> bool {
     let displaces = |effect: &EffectSummary| {
         matches!(
@@ -132,8 +131,8 @@ fn steps_are_whole(analysis: &Analysis) -> bool {
         })
 }
 
-/// Returns `true` if the level places, with a character that the game does not use, an avatar that the game's
-/// analysis omits.
+/// Returns `true` if the level contains an avatar that is missing from the game's analysis, placed by a character
+/// that the game itself does not use.
 fn has_other_avatar(analysis: &Analysis, level: &Level) -> bool {
     let game = analysis.game();
     let is_other = |stype: &SpriteType| {
@@ -154,8 +153,8 @@ struct Board<'a> {
 }
 
 impl Board<'_> {
-    /// Returns the rules that involve a sprite of the type, with the sprite's side in the rule and the rule's
-    /// index in the tick.
+    /// Returns the rules that involve a sprite of the type. Each rule comes with its index in the tick and the
+    /// sprite's side in the rule.
     fn rules_of(&self, stype: SpriteType) -> impl Iterator<Item = (usize, Side, &Encounter)> {
         let analysis = self.analysis;
         analysis.encounters().iter().enumerate().flat_map(move |(at, encounter)| {
@@ -166,8 +165,8 @@ impl Board<'_> {
     }
 
     /// Returns the index, within the tick, of the first rule by which a fixed sprite in the cell undoes the
-    /// movement of a sprite of the type. Returns `None` if a later rule in the tick may push the sprite there
-    /// again.
+    /// movement of a sprite of the type. Returns `None` if there is no such rule, or if a later rule in the tick may
+    /// push the sprite there again.
     fn thrown_back(&self, stype: SpriteType, cell: usize) -> Option<usize> {
         let here = self.analysis.game().places(self.level.cells()[cell]);
         let throws = |side: Side, rule: &Encounter| {
@@ -227,7 +226,7 @@ impl Board<'_> {
         })
     }
 
-    /// Returns `true` if a sprite in the cell may meet the rule's partner on that side, or the edge.
+    /// Returns `true` if a sprite in the cell may meet a partner of the rule on the given side, or the edge.
     fn may_be_met(&self, rule: &Encounter, side: Side, cell: usize) -> bool {
         let partner = match side {
             Side::First => rule.first,
@@ -242,8 +241,8 @@ impl Board<'_> {
             .any(|other| self.reach.can_touch(other, cell))
     }
 
-    /// Returns the possible fates for a sprite of the type in a cell: removal (`None`) or a different type.
-    /// If a rule undoes the sprite's movement into the cell, only the rules before that rule apply.
+    /// Returns the possible fates of a sprite of the type in a cell: removal (`None`) or a different type. If a rule
+    /// undoes the sprite's movement into the cell, only the rules before that rule apply.
     fn fates(&self, stype: SpriteType, cell: usize) -> Vec<Option<SpriteType>> {
         let mut fates = Vec::new();
         let before = self.thrown_back(stype, cell).unwrap_or(usize::MAX);
@@ -291,12 +290,12 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns, for each cell, the minimum number of pushes after which a sprite of the type may no longer be
-    /// of a counted type. The result is a fixed point, computed backwards from the possible final cells of
-    /// the sprite.
+    /// Returns, for each cell, the minimum number of pushes after which a sprite of the type may no longer have a
+    /// counted type. The result is a fixed point, which is computed backwards from the cells in which the sprite can
+    /// end.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
-        // The types that the sprite may turn into while it is still counted, by index.
+        // The types that the sprite may have while it is still counted. Indices below refer to this list.
         let mut kinds = vec![stype];
         // The possible fates by kind, then by cell.
         let mut fates: Vec<Vec<Vec<Option<SpriteType>>>> = Vec::new();
@@ -319,10 +318,10 @@ impl Board<'_> {
                         None => 0,
                         Some(to) => kinds.iter().position(|&k| k == to).map_or(0, |to| pushes[to][cell]),
                     });
-                    // A sprite cannot be pushed on from a cell from which it is always thrown back.
+                    // A sprite cannot be pushed any further from a cell in which its movement is always undone.
                     let rests = self.reach.can_be(kind, cell) && self.thrown_back(kind, cell).is_none();
                     let pushed = |(dx, dy): (i32, i32)| {
-                        // Beyond the edge, anything may happen.
+                        // Anything may happen beyond the edge.
                         let Some(there) = self.neighbour(cell, (dx, dy)) else { return 0 };
                         let behind = self.neighbour(cell, (-dx, -dy));
                         if by_others[at] {

@@ -49,23 +49,23 @@ impl Hasher for KeyHasher {
 #[expect(clippy::disallowed_types, reason = "the map is used for look-ups and never iterated")]
 type Met = std::collections::HashMap<SearchKey, NodeId, BuildHasherDefault<KeyHasher>>;
 
-/// The maximum number of steps to replay to restore a state, chosen so that replaying is rarely more
+/// The maximum number of steps to replay in order to restore a state. It is chosen so that replaying is rarely more
 /// expensive than storing the whole state.
 const MAX_REPLAYED: usize = 7;
 
-/// An open state, stored as a packed earlier state and the few actions that lead from it to the open state.
+/// An open state, stored as a packed earlier state and the few actions that lead from there to the open state.
 pub(super) struct StoredState {
     whole: Rc<Packed>,
     steps: ArrayVec<Action, MAX_REPLAYED>,
 }
 
-/// A search's open states, in order of expansion.
+/// The open states of a search, in order of expansion.
 pub(super) trait Frontier {
-    /// `true` if the first win found in this order is the shortest possible.
+    /// `true` if this order guarantees that the first win found is the shortest one.
     const SHORTEST: bool;
 
-    /// Adds a state, with the number of ticks to reach the state and a lower bound on the pushes that it
-    /// needs.
+    /// Adds a state. `depth` is the number of ticks to reach the state, and `least` is a lower bound on the pushes
+    /// that the state needs.
     fn push(&mut self, state: &State, node: NodeId, depth: u32, least: u32, kept: StoredState);
 
     fn pop(&mut self) -> Option<(NodeId, StoredState)>;
@@ -101,13 +101,13 @@ const STOP_STRIDE: u64 = 256;
 
 /// The result of an expansion.
 enum Expanded {
-    /// The search goes on: the new successors were passed to the frontier.
+    /// The search continues. The new successors were passed to the frontier.
     On,
     /// A successor wins.
     Won(NodeId),
-    /// The budget in calls is spent.
+    /// The call budget is spent.
     OutOfCalls,
-    /// The memory is full.
+    /// The memory limit was reached.
     OutOfMemory,
 }
 
@@ -120,8 +120,7 @@ impl<'a> Tree<'a> {
     ) -> Tree<'a> {
         let game = analysis.game();
         let abstraction = analysis.abstraction(start);
-        // Waiting and the actions of every avatar type are included, regardless of the level's initial
-        // avatar.
+        // Waiting and the actions of every avatar type are included, whichever avatar the level starts with.
         let mut actions = vec![Action::Nil];
         for stype in game.sprite_types() {
             actions.extend(game.actions_of(stype));
@@ -148,14 +147,14 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Returns a tree whose search ends once `stopped` returns `true`, as if its calls were spent.
+    /// Returns a tree whose search ends once `stopped` returns `true`, as if the call budget were spent.
     pub(super) fn until(self, stopped: Stopped<'a>) -> Tree<'a> {
         Tree { stopped, ..self }
     }
 
-    /// Expands states in the order of a frontier until one state wins, no state is open, or a limit is
-    /// reached. In stochastic games, keys include the random state and exhausting all states proves nothing,
-    /// so it yields [`Answer::OutOfCalls`].
+    /// Expands states in a frontier's order until a state wins, no open states are left, or a limit is reached. In
+    /// stochastic games, the keys include the random state. Covering all states then proves nothing, so it results in
+    /// [`Answer::OutOfCalls`].
     pub(super) fn search<F: Frontier>(mut self, frontier: impl FnOnce(&Tree<'_>, &State) -> F) -> Searched {
         let start = self.base.clone();
         if start.is_over() {
@@ -190,8 +189,8 @@ impl<'a> Tree<'a> {
         StoredState { whole: Rc::new(packed), steps: ArrayVec::new() }
     }
 
-    /// Generates all successors of a state, and passes the new successors that are neither finished nor dead
-    /// ends to `open`. Drops the state.
+    /// Generates all successors of a state. New successors are passed to `open` unless they are finished or dead
+    /// ends. The state itself is dropped.
     fn expand(
         &mut self,
         node: NodeId,
@@ -295,8 +294,8 @@ impl<'a> Tree<'a> {
         self.nodes[node as usize].depth
     }
 
-    /// Returns an estimate of the bytes in use. The estimate is deterministic: it is independent of the clock
-    /// and the allocator.
+    /// Returns an estimate of the number of bytes in use. The estimate is deterministic, because it depends neither
+    /// on the clock nor on the allocator.
     fn bytes(&self) -> usize {
         // A hash table is at least 7/16 full and needs one extra byte per slot. Queues hold the packed states.
         let keys = self.met.len() * (size_of::<(SearchKey, NodeId)>() + 1) * 16 / 7;

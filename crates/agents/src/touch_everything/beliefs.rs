@@ -3,7 +3,7 @@
 use engine::Observation;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The context of a contact: the avatar's type and the resources that it holds. A lock, for example, is worth
+/// The context of a contact: the avatar's type and the resources that the avatar holds. For example, a lock is worth
 /// another try with a key.
 pub(super) type Circumstances = (String, Vec<String>);
 
@@ -14,11 +14,11 @@ pub struct Experience {
     pub survived: u32,
     /// The number of ticks in which the avatar was lost during contact with this kind.
     pub deaths: u32,
-    /// The number of contacts after which the score had risen, minus the number of contacts after which the
-    /// score or the avatar's health had fallen.
+    /// The number of contacts after which the score was higher, minus the number of contacts after which the score or
+    /// the avatar's health was lower.
     pub gain: i32,
-    /// The number of contacts after which there was one sprite fewer of this kind, or the avatar held more
-    /// resources or had changed its type.
+    /// The number of contacts after which there was one sprite fewer of this kind, the avatar held more resources, or
+    /// the avatar had a different type.
     pub taken: u32,
     /// The number of contacts that pushed a sprite of this kind.
     pub pushed: u32,
@@ -26,7 +26,7 @@ pub struct Experience {
     pub(super) blocked: BTreeSet<Circumstances>,
     /// The contexts of contacts with this kind.
     pub(super) touched: BTreeSet<Circumstances>,
-    /// `true` if the avatar has entered a cell of this kind.
+    /// `true` if the avatar has entered a cell with a sprite of this kind.
     pub entered: bool,
 }
 
@@ -57,13 +57,15 @@ pub(super) struct Beliefs {
 pub(super) struct Passed<'a> {
     pub(super) before: &'a Observation,
     pub(super) now: &'a Observation,
-    /// The touched kinds, and kinds beside the avatar that may have touched it.
+    /// The touched kinds.
     pub(super) touched: &'a [String],
+    /// The kinds beside the avatar that may have touched it.
     pub(super) beside: &'a [String],
-    /// The kinds that blocked the avatar, if the avatar faced them but did not move.
+    /// The kinds in front of the avatar that blocked it: the avatar faced them but did not move.
     pub(super) in_the_way: &'a [String],
-    /// The kinds in the entered cell, and the kinds that are now in the cell behind the entered cell.
+    /// The kinds in the entered cell.
     pub(super) entered: &'a [String],
+    /// The kinds that are now in the cell behind the entered cell.
     pub(super) pushed: &'a [String],
 }
 
@@ -97,7 +99,7 @@ impl Beliefs {
             != now.avatar.as_ref().map(|avatar| &avatar.name);
         let is_richer = held(now) > held(before) || is_other;
         let is_fewer = |kind: &String| count(now, kind) < count(before, kind);
-        // If something has disappeared, the change is attributed to what disappeared.
+        // If a sprite has disappeared, the change is attributed to the kind of that sprite.
         let anything_gone = passed.touched.iter().any(is_fewer);
         for kind in passed.touched {
             let is_cause = is_fewer(kind) || !anything_gone;
@@ -118,8 +120,8 @@ impl Beliefs {
         }
     }
 
-    /// Records a death for the likely killers: touched kinds that are not known to be harmless, or else the
-    /// kinds beside the avatar.
+    /// Attributes a death to the likely killers. These are the touched kinds that are not known to be harmless or, if
+    /// there are none, the kinds beside the avatar.
     fn blame(&mut self, passed: &Passed<'_>, circumstances: &Circumstances) {
         let is_suspect = |kind: &&String| self.of(kind).is_none_or(|known| known.deaths >= known.survived);
         let touched: Vec<String> = passed.touched.iter().filter(is_suspect).cloned().collect();
@@ -133,7 +135,7 @@ impl Beliefs {
     }
 }
 
-/// Returns the context of contacts in this observation.
+/// Returns the context for contacts in this observation.
 pub(super) fn circumstances(seen: &Observation) -> Circumstances {
     let held = seen.resources.iter().filter(|(_, amount)| *amount > 0).map(|(name, _)| name.clone());
     (seen.avatar.as_ref().map(|avatar| avatar.name.clone()).unwrap_or_default(), held.collect())

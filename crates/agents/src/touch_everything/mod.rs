@@ -11,26 +11,27 @@ use beliefs::{Beliefs, Circumstances, Passed, circumstances};
 use engine::{Action, Game, Observation, State};
 use std::collections::BTreeMap;
 
-/// The number of key presses towards a sprite after which it counts as touched, even if they had no effect.
+/// The number of key presses towards a sprite after which the sprite counts as touched, even if they had no effect.
 const MOST_PRESSES: u32 = 4;
 
-/// The odds of a random step: one in `RANDOM_STEP_ODDS` decisions. Without random steps, the player could
-/// repeat a fruitless path forever.
+/// The odds of a random step: one decision in `RANDOM_STEP_ODDS`. Without random steps, the player could repeat a
+/// fruitless path forever.
 const RANDOM_STEP_ODDS: usize = 16;
 
-/// The odds of pressing the use key: one in `USE_ODDS` decisions, until the key has had no effect
-/// `MOST_IDLE_USES` times in the same context.
+/// The odds of pressing the use key: one decision in `USE_ODDS`, until the key has had no effect `MOST_IDLE_USES`
+/// times in the same context.
 const USE_ODDS: usize = 6;
 const MOST_IDLE_USES: u32 = 3;
 
-/// The extra costs, in steps, for a step next to a deadly kind and for a push.
+/// The extra cost, in steps, of a step next to a deadly kind.
 const DANGER_COST: u32 = 8;
+/// The extra cost, in steps, of a push.
 const PUSH_COST: u32 = 5;
 
 /// A player that does not know the rules. It walks to the nearest kind of sprite that it has not touched yet,
-/// preferring motionless kinds. From its observations, it learns which contacts end the game, bring a reward
-/// or block the avatar. It takes rewarding kinds first, avoids deadly kinds, and retries a blocking kind when
-/// the avatar holds something different.
+/// preferring motionless kinds. By observation, it learns which contacts end the game, bring a reward or block the
+/// avatar. It takes rewarding kinds first, avoids deadly kinds, and tries blocking kinds again when the avatar holds
+/// something else.
 ///
 /// The player sees only observations, even when used as a [`Planner`]. It uses no other information about the
 /// game or the state, and makes no forward-model calls. Its knowledge persists from level to level, until
@@ -41,7 +42,7 @@ pub struct TouchEverything {
     beliefs: Beliefs,
     /// The last observation, and the actions chosen for it.
     last: Option<(Observation, Vec<Action>)>,
-    /// The number of presses towards each kind since it was last touched.
+    /// The number of key presses towards each kind since the kind was last touched.
     presses: BTreeMap<String, u32>,
     /// The number of presses of the use key that had no visible effect (nothing appeared, disappeared or
     /// changed), by context.
@@ -60,8 +61,8 @@ impl TouchEverything {
         }
     }
 
-    /// Chooses at least one and at most `due` actions. If it chooses several, it assumes that nothing but the
-    /// avatar moves. Cost: O(cells log cells) per target.
+    /// Chooses at least one action, and at most `due` actions. If several actions are due, the player assumes that
+    /// nothing but the avatar moves. Cost: O(cells log cells) per target.
     pub fn act(&mut self, seen: &Observation, actions: &[Action], due: usize) -> Vec<Action> {
         self.learn(seen);
         let mut imagined = seen.clone();
@@ -85,14 +86,14 @@ impl TouchEverything {
         self.presses.clear();
     }
 
-    /// Forgets everything, so that the player can start a different game.
+    /// Forgets everything, as is necessary before a different game.
     pub fn forget(&mut self) {
         (self.beliefs, self.last) = (Beliefs::default(), None);
         self.presses.clear();
         self.idle_uses.clear();
     }
 
-    /// Returns the experience with a kind of sprite, if the kind was touched.
+    /// Returns the experience with a kind of sprite, if that kind was touched.
     pub fn experience(&self, kind: &str) -> Option<&Experience> {
         self.beliefs.of(kind)
     }
@@ -140,7 +141,7 @@ impl TouchEverything {
             let still_there = others(now, target);
             if is_stuck {
                 in_the_way = at_target.iter().filter(|kind| still_there.contains(kind)).cloned().collect();
-                // A kind that also lies under the avatar does not block it.
+                // A kind that is also under the avatar does not block it.
                 in_the_way.retain(|kind| !others(now, from).contains(kind));
             } else if here == Some(target) {
                 let beyond = route::way(actions[0]).and_then(|way| board.beside(target, way));
@@ -204,7 +205,7 @@ impl TouchEverything {
         if self.choices.below(RANDOM_STEP_ODDS) == 0 { self.random_step(&view, &keys) } else { first }
     }
 
-    /// Returns a random step without a known danger or obstacle.
+    /// Returns a random step that leads to no known danger or obstacle.
     fn random_step(&mut self, view: &View<'_>, keys: &[Action]) -> Action {
         let is_safe = |action: &Action| match route::way(*action) {
             Some(way) => view
@@ -265,14 +266,14 @@ impl View<'_> {
         Some(1 + if is_near_danger { DANGER_COST } else { 0 } + if is_pushed { PUSH_COST } else { 0 })
     }
 
-    /// Returns `true` for a kind that the avatar has never touched while it had its current type and
+    /// Returns `true` if the avatar holds something, and has never touched the kind with its current type and
     /// resources.
     fn is_worth_another_try(&self, kind: &str) -> bool {
         self.beliefs.of(kind).is_none_or(|known| !known.touched.contains(&self.circumstances))
             && !self.circumstances.1.is_empty()
     }
 
-    /// Returns a cell's rank as a target. The best rank is 0.
+    /// Returns the rank of a cell as a target, where 0 is best.
     fn rank(&self, cell: usize) -> Option<u32> {
         let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
         let rank = |kind: &str| {

@@ -1,4 +1,4 @@
-//! Operations on a node's branches, one branch per action, shared by the tree searches.
+//! Operations on the branches of a node, one branch per action. They are shared by the tree searches.
 
 use base::Sampler;
 use engine::Action;
@@ -19,8 +19,8 @@ pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usiz
     branches.nth(drawn).map(|(branch, _)| branch)
 }
 
-/// Applies the reference's tie-breaking noise, based on a draw in [0, 1). The noise is proportional to the
-/// value, so it is zero at a value of 0 and several units at a win's value.
+/// Applies the reference's tie-breaking noise, based on a draw in [0, 1). The noise is proportional to the value, so
+/// it is zero for a value of 0, and several units for the value of a win.
 pub(crate) fn blurred(value: f64, epsilon: f64, noise: f64) -> f64 {
     (value + epsilon) * (1.0 + epsilon * (noise - 0.5))
 }
@@ -37,8 +37,8 @@ pub(crate) fn best(width: usize, mut value: impl FnMut(usize) -> f64) -> usize {
     best.0
 }
 
-/// Copies the subtree under a node, breadth first, making that node the root. Returns an empty tree if the
-/// node does not exist.
+/// Copies the subtree under a node, breadth first, with that node as the root. Returns an empty tree if the node does
+/// not exist.
 pub(crate) fn subtree<N: Clone>(
     tree: &[N],
     root: u32,

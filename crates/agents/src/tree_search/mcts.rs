@@ -1,10 +1,10 @@
-//! Open-loop Monte-Carlo tree search with UCT: the reference's `sampleMCTS`, with a budget in forward-model
+//! Open-loop Monte-Carlo tree search with UCT, like the reference's `sampleMCTS`, with a budget in forward-model
 //! calls (`spec/04` §1).
 //!
-//! In open-loop search, a node is a sequence of actions and not a state. Every iteration replays its sequence
-//! from a fresh copy of the root, with its own random seed, so a node's statistics average over the possible
-//! outcomes. See Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning", and Browne et al. 2012, "A
-//! survey of Monte Carlo tree search methods".
+//! In open-loop search, a node represents a sequence of actions, not a state. Every iteration replays its sequence
+//! from a fresh copy of the root, with its own random seed, so the statistics of a node average over the possible
+//! outcomes. See Kocsis and Szepesvári 2006, "Bandit based Monte-Carlo planning", and Browne et al. 2012, "A survey
+//! of Monte Carlo tree search methods".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, unexpanded};
 use crate::planner::{Budget, Planner, Streams};
@@ -32,10 +32,10 @@ base::with_defaults! {
 }
 
 impl MctsConfig {
-    /// Returns bold parameters, for which wins and losses weigh about as much as points. With the reference's
-    /// ±10⁷, a single loss seen through a node hides all score differences there, so the search avoids every
-    /// danger instead of playing. On the corpus, the bold parameters win about a quarter more episodes with
-    /// the same number of calls.
+    /// Returns bold parameters, under which wins and losses weigh about as much as points. With the reference's ±10⁷,
+    /// a single loss seen through a node hides all score differences there, so the search avoids every danger instead
+    /// of making progress. On the corpus, the bold parameters win about a quarter more episodes with the same number
+    /// of calls.
     pub fn bold(depth: u32) -> MctsConfig {
         MctsConfig { depth, win: 10.0, loss: 1.0, ..MctsConfig::default() }
     }
@@ -128,7 +128,8 @@ impl Mcts {
         calls
     }
 
-    /// Chooses the branch with the greatest UCT value: the mean, normalised to the range seen through the node, plus exploration.
+    /// Chooses the branch with the greatest UCT value, which is the mean plus exploration. The mean is normalised to
+    /// the range of results seen through the node.
     fn select(&self, node: usize, width: usize, choices: &mut Sampler) -> usize {
         let Node { children, visits, least, greatest, .. } = &self.tree[node];
         let logarithm = libm::log(visits + 1.0);

@@ -1,8 +1,8 @@
-//! Monte-Carlo tree search guided by the game's rules. It fixes the known weaknesses of the reference's
+//! Monte-Carlo tree search that is guided by the game's rules. It avoids the known weaknesses of the reference's
 //! search.
 //!
-//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`] that can be turned off
-//! individually. `docs/reference/planners.md` lists the gain from each field. The sources are:
+//! Each difference from [`Mcts`](crate::Mcts) is a field of [`GuidedMctsConfig`], and can be turned off individually.
+//! `docs/reference/planners.md` lists the gain from each field. The sources are:
 //!
 //! - Macro actions and discounts: Perez Liebana et al. 2012, "Monte Carlo tree search: long-term versus
 //!   short-term planning".
@@ -31,14 +31,15 @@ base::with_defaults! {
         pub depth: u32 = 20,
         /// The exploration weight in UCT.
         pub exploration: f64 = 0.7,
-        /// The bonus that a win adds to a result, whose other parts are each between −1 and 1. The reference adds 10⁷ to the
-        /// score.
+        /// The bonus that a win adds to a result. The other parts of a result are each between −1 and 1. The
+        /// reference adds 10⁷ to the score.
         pub win: f64 = 2.0,
         /// The penalty that a loss subtracts from a result.
         pub loss: f64 = 1.0,
-        /// The weight of the points gained, relative to the largest gain in this episode's searches.
+        /// The weight of the points gained. They are measured relative to the largest gain in this episode's
+        /// searches.
         pub score: f64 = 1.0,
-        /// The factor by which each preceding tick discounts a result. The reference uses 1.
+        /// The factor by which each tick before a result discounts that result. The reference uses 1.
         pub discount: f64 = 0.99,
         /// `true` if doing nothing is an action. The reference uses `false`.
         pub nil: bool = true,
@@ -48,33 +49,32 @@ base::with_defaults! {
         /// The maximum number of consecutive ticks in which a rollout repeats an action. The reference uses
         /// 1.
         pub repeat: usize = 1,
-        /// The weight of novelty: reaching a position that the avatar has not visited in this episode with
-        /// the same progress. The reference uses 0.
+        /// The weight of novelty, which means reaching a position that the avatar has not visited in this episode
+        /// with the same progress. The reference uses 0.
         pub novelty: f64 = 0.5,
         /// The weight of progress as measured by the rules, including the distance to useful targets. The
         /// reference uses 0.
         pub guidance: f64 = 1.0,
-        /// `true` if the planner plays a win that it finds in a deterministic game to the end without
-        /// searching again.
+        /// `true` to play a win that was found in a deterministic game to the end, without searching again.
         pub commit: bool = true,
     }
 }
 
-/// A planner that uses tree search guided by the rules.
+/// A planner that uses tree search guided by the game's rules.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct GuidedMcts {
     config: GuidedMctsConfig,
     streams: Streams,
     /// The nodes of the tree, with the root first. Between decisions, only the retained nodes are stored.
     tree: Vec<Node>,
-    /// The action of each branch of the tree.
+    /// The action that belongs to each branch of the tree.
     actions: Vec<Action>,
     /// The number of visits to each combination of the avatar's position, type and progress.
     #[serde(with = "pairs")]
     visits: BTreeMap<u64, u32>,
     /// The largest number of points gained or lost in a rollout.
     scale: f64,
-    /// The remaining actions of a guaranteed win, in order.
+    /// The remaining actions of a win that is certain, in order.
     plan: VecDeque<Action>,
     #[serde(skip)]
     guide: Option<Box<GoalGuide>>,
@@ -119,7 +119,7 @@ mod pairs {
     }
 }
 
-/// The root's values, with which results are compared.
+/// The values of the root, with which results are compared.
 struct Root {
     score: f64,
     progress: f64,
@@ -145,7 +145,7 @@ impl GuidedMcts {
         }
     }
 
-    /// Prepares the tree. Reuses the part retained from the last decision, if it still fits.
+    /// Prepares the tree. Reuses the part retained after the last decision, if it still fits.
     fn begin(&mut self, game: &Game, state: &State) {
         let mut actions = game.actions(state).to_vec();
         if self.config.nil && !actions.contains(&Action::Nil) {
@@ -248,7 +248,7 @@ impl GuidedMcts {
         })
     }
 
-    /// Chooses the most visited branch. Ties go to the branch with the better value.
+    /// Chooses the most visited branch. Ties go to the branch with the higher value.
     fn decide(&self) -> usize {
         best(self.actions.len(), |branch| {
             let child = self.tree.get(self.tree[0].children[branch] as usize);
@@ -256,7 +256,7 @@ impl GuidedMcts {
         })
     }
 
-    /// Retains the subtree under a branch of the root, breadth first, or nothing if reuse is off.
+    /// Retains the subtree under a branch of the root, breadth first. Retains nothing if reuse is off.
     fn keep(&mut self, branch: usize) {
         let root = if self.config.reuse { self.tree[0].children[branch] } else { UNEXPANDED };
         self.tree = subtree(&self.tree, root, |node| &mut node.children);
@@ -280,8 +280,8 @@ impl Gains {
     }
 }
 
-/// Returns a hash of the avatar's position and type and of the game's progress. A state whose hash has been
-/// seen before is not novel.
+/// Returns a hash of the avatar's position and type, and of the game's progress. A state is not novel if its hash has
+/// been seen before.
 fn novelty_key(state: &State, guide: &GoalGuide) -> u64 {
     let (x, y) = state.avatar_place().unwrap_or((-1, -1));
     let block = state.block().max(1);

@@ -1,10 +1,10 @@
-//! Open-loop expectimax tree search: the reference's `olets`, with a budget in forward-model calls (`spec/04`
-//! §2). OLETS won the reference's competition.
+//! Open-loop expectimax tree search (OLETS), like the reference's `olets`, with a budget in forward-model calls
+//! (`spec/04` §2). OLETS won the reference's competition.
 //!
-//! A node is a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout. A new node is
-//! evaluated by its state. A node's value is a mixture of the results that ended there and the value of its
-//! best child. The tree under the chosen action is reused for the next decision. The method was developed by
-//! A. Couëtoux (2015). See Perez Liebana et al. 2016, "The 2014 general video game playing competition".
+//! A node represents a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout. Instead, a new node
+//! is evaluated by its state. The value of a node is a mixture of the results that ended there and the value of its
+//! best child. The tree under the chosen action is reused for the next decision. The method was developed by A.
+//! Couëtoux (2015). See Perez Liebana et al. 2016, "The 2014 general video game playing competition".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
 use crate::planner::{Budget, Decision, Planner, Streams};
@@ -25,14 +25,14 @@ base::with_defaults! {
         pub exploration: f64 = std::f64::consts::SQRT_2,
         /// The fraction of uniformly random choices during the descent.
         pub random: f64 = 0.05,
-        /// The number of past avatar positions to remember, one per decision.
+        /// The number of past avatar positions that are remembered, one per decision.
         pub memory: usize = 15,
         /// The penalty for a node that leads to a remembered position.
         pub penalty: f64 = 0.5,
-        /// `true` to correct how the reference counts nodes retained from the last decision (`spec/04` §2).
-        /// Each retained node should count as one visit, with the mean of its results so far. The reference
-        /// keeps the sum of the results that ended at a node, but divides it by that one visit. If `true`,
-        /// the sum is divided by the number of results instead.
+        /// `true` to correct how the reference counts nodes retained after the last decision (`spec/04` §2). Each
+        /// retained node should count as one visit, with the mean of its results so far. The reference keeps the sum
+        /// of the results that ended at a node, but divides this sum by that one visit. If `true`, the sum is divided
+        /// by the number of results instead.
         pub fixed_refresh: bool = false,
     }
 }
@@ -42,10 +42,10 @@ base::with_defaults! {
 pub struct Olets {
     config: OletsConfig,
     streams: Streams,
-    /// The nodes of the tree, with the root first. Between decisions, only the retained nodes are stored, not
-    /// yet refreshed.
+    /// The nodes of the tree, with the root first. Between decisions, only the retained nodes are stored, and they
+    /// have not been refreshed yet.
     tree: Vec<Node>,
-    /// The action of each branch of the tree.
+    /// The action that belongs to each branch of the tree.
     actions: Vec<Action>,
     /// The avatar's positions at the most recent decisions, except the very first. The current position comes
     /// last.
@@ -67,8 +67,8 @@ struct Node {
     /// The number of iterations that ended at this node, and the sum of their results.
     exits: f64,
     exit_sum: f64,
-    /// The mean of the results that ended at this node, mixed with the value of the best child in proportion
-    /// to their visits.
+    /// The mean of the results that ended at this node, mixed with the value of the best child. The weights are
+    /// proportional to the numbers of visits.
     value: f64,
     penalty: f64,
     /// `true` if the node was reached in this decision.
@@ -116,8 +116,8 @@ impl Olets {
         }
     }
 
-    /// Remembers the avatar's position and prepares the tree. Reuses the part retained from the last
-    /// decision, if it still fits.
+    /// Remembers the avatar's position, and prepares the tree. Reuses the part retained after the last decision, if
+    /// it still fits.
     fn begin(&mut self, actions: Vec<Action>, state: &State) {
         if std::mem::replace(&mut self.begun, true)
             && let Some(place) = state.avatar_place()
@@ -157,7 +157,8 @@ impl Olets {
             if !self.tree[node].reached {
                 self.tree[node].reached = true;
                 self.tree[node].penalty = self.penalty(state);
-                // The first pass through a kept child of the root ends there, so that the child has a result from this decision.
+                // The first pass through a retained child of the root ends there, so that the child gets a result
+                // from this decision.
                 if new || self.path.len() == 2 {
                     break;
                 }
@@ -178,7 +179,8 @@ impl Olets {
             let node = &self.tree[at];
             let children = node.children.iter().filter(|&&child| child != UNEXPANDED);
             let best = children.map(|&child| self.tree[child as usize].value).reduce(f64::max);
-            // Iterations end at the root only if there is nothing to plan, and at other nodes only before they have a child.
+            // At the root, iterations end only if there is nothing to plan. At other nodes, they end only before the
+            // node has a child.
             let ended = if node.exits > 0.0 { node.exit_sum / node.exits } else { 0.0 };
             let share = node.exits / node.visits;
             self.tree[at].value = best.map_or(ended, |best| share * ended + (1.0 - share) * best);
@@ -237,8 +239,8 @@ fn in_order(actions: &[Action]) -> Vec<Action> {
     [Use, Left, Right, Down, Up, Nil].into_iter().filter(|action| actions.contains(action)).collect()
 }
 
-/// Returns the value of a state `depth` ticks ahead. The value is the score, adjusted for the outcome: a win
-/// is worth more the higher the score, and a loss is worse the sooner it comes.
+/// Returns the value of a state `depth` ticks ahead. The value is the score, adjusted for the outcome. A win is worth
+/// more if the score is higher, and a loss is worse if it comes sooner.
 fn result(state: &State, depth: f64) -> f64 {
     let score = state.score();
     match state.outcome() {
@@ -296,8 +298,8 @@ mod tests {
         assert_eq!(result(&ended("A g"), 5.0), 0.0);
     }
 
-    /// Checks values calculated by hand for a retained node with four visits, three of which ended at the
-    /// node with a sum of 6.
+    /// Checks values that were calculated by hand, for a retained node with four visits. Three of the visits ended at
+    /// the node, with a sum of 6.
     #[test]
     fn kept_subtrees_count_as_one_visit() {
         let node = Node { visits: 4.0, total: 10.0, exits: 3.0, exit_sum: 6.0, ..Node::new() };

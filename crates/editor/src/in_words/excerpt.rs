@@ -12,8 +12,8 @@ const CUT: char = '…';
 /// The replacement for a tab, which counts as one column.
 const TAB: char = '→';
 
-/// The line of a problem and the lines above and below it, cropped around the problem's position, with
-/// visible tabs.
+/// The line with a problem and the lines above and below it, cropped around the problem's position. Tabs are made
+/// visible.
 pub(super) struct Excerpt {
     name: String,
     text: String,
@@ -60,7 +60,7 @@ impl Excerpt {
         }
         let marked = source[start..end.min(to)].chars().count();
         let shown = excerpt.push(&source[from..to], column - 1);
-        // The length covers the visible characters of the line, from the position on.
+        // The length covers the visible characters of the line from the position onwards.
         let visible = excerpt.text[shown..].trim_end_matches('\n');
         let length = visible.chars().take(marked).map(char::len_utf8).sum();
         excerpt.span = (shown, length);

@@ -58,8 +58,8 @@ pub fn one_in_words(source: Source<'_>, problem: &Diagnostic) -> String {
     }
 }
 
-/// Returns the help for a problem in the text with the given name. The name replaces the placeholder in the
-/// engine's help, so that commands work as printed.
+/// Returns the help for a problem in the text with the given name. The name replaces the placeholder in the engine's
+/// help, so that the commands work as printed.
 #[must_use]
 pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
     let help = problem.help.as_ref()?;
@@ -114,7 +114,7 @@ mod tests {
         );
         check("bad", "bad", &["game.vgdl:1:1", "1 │ bad", "─┬─"]);
         check("one\r\nbad\r\n", "bad", &["game.vgdl:2:1", "1 │ one\n", "2 │ bad\n"]);
-        // A tab is one column wide and made visible.
+        // A tab is one column wide, and is made visible.
         check("a\n\tbad\n", "bad", &["game.vgdl:2:2", "2 │ →bad", "·  ─┬─"]);
         check("", "", &["no such thing"]);
     }

@@ -140,7 +140,8 @@ impl Documents {
         }
     }
 
-    /// Returns a level's game with its URI, from the open document if there is one, or else from disk.
+    /// Returns a level's game and the game's URI. The text comes from the open document if there is one, and
+    /// otherwise from disk.
     pub(super) fn game_of(&self, level: &str) -> Option<(String, Text)> {
         let path = uri::path(level)?;
         let (folder, name) = (path.parent()?, path.file_name()?.to_str()?);
@@ -149,7 +150,7 @@ impl Documents {
         self.text_at(&folder.join(game), MAX_SOURCE)
     }
 
-    /// Returns a game's levels with their URIs, from the open documents and the files on disk.
+    /// Returns a game's levels with their URIs, from open documents and from files on disk.
     pub(super) fn levels_of(&self, game: &str) -> Vec<(String, Text)> {
         let Some(path) = uri::path(game) else { return Vec::new() };
         let (Some(folder), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
@@ -170,7 +171,7 @@ impl Documents {
         open.chain(files.filter_map(|entry| entry.file_name().into_string().ok())).collect()
     }
 
-    /// Returns a file's text, from the open document if there is one, or else from disk.
+    /// Returns a file's text, from the open document if there is one, and otherwise from disk.
     fn text_at(&self, path: &Path, most: usize) -> Option<(String, Text)> {
         let open = self.0.iter().find(|(uri, _)| uri::path(uri).as_deref() == Some(path));
         if let Some((uri, document)) = open {

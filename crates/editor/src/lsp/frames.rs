@@ -19,8 +19,7 @@ pub(super) enum Frame {
     End,
 }
 
-/// Reads the next frame. Memory is allocated as the bytes arrive, not based on the length stated in the
-/// header.
+/// Reads the next frame. Memory is allocated as the bytes arrive, not according to the length stated in the header.
 pub(super) fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     let mut length = None;
     let mut is_empty = true;

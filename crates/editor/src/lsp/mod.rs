@@ -14,7 +14,7 @@ use std::io::{self, BufRead, Write};
 use std::sync::mpsc::{TryRecvError, sync_channel};
 use std::thread;
 
-/// The number of messages to read ahead, so that of several successive changes, only the last is checked.
+/// The number of messages to read ahead. If several changes arrive in succession, only the last one is checked.
 const AHEAD: usize = 8;
 
 /// Serves one client until the client leaves. Returns `true` if the client requested a shutdown first.

@@ -1,4 +1,4 @@
-//! A session's state, and the handling of its messages.
+//! The state of a session, and the handling of its messages.
 
 use super::answers::{self, Refusal};
 use super::documents::Documents;

@@ -7,7 +7,7 @@ use engine::{Action, Analysis, Game, Level, Outcome, State};
 /// The minimum and maximum number of key presses per deviation.
 const KEYS: (usize, usize) = (3, 5);
 
-/// A deviation from a win: from a tick of the win, the player presses a different key a few times.
+/// A deviation from a win: at one tick, the player presses a wrong key and repeats it a few times.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deviation {
     tick: usize,
@@ -41,8 +41,8 @@ impl Deviation {
         (0..count).filter_map(draw).collect()
     }
 
-    /// Plays a win up to the deviation, and then the deviation. Returns the last state and its outcome. Costs a replay
-    /// of a part of the win.
+    /// Plays a win up to the deviation, and then the deviation itself. Returns the resulting state and outcome. Costs
+    /// at most one replay of the win.
     pub(super) fn play(&self, game: &Game, level: &Level, win: &[Action], seed: Seed) -> (State, Outcome) {
         let mut state = game.start(level, seed);
         let keys = win[..self.tick].iter().copied().chain([self.key; KEYS.1].into_iter().take(self.presses));
@@ -69,13 +69,13 @@ pub(super) struct Costs {
     pub(super) traps: f64,
     /// The fraction of deviations after which the player is dead.
     pub(super) deaths: f64,
-    /// The tick of the last deviation that has a cost, as a fraction of the last tick at which a deviation was tried.
+    /// The tick of the last deviation that has a cost, as a fraction of the tick of the last deviation tried.
     pub(super) last: f64,
     /// The number of forward-model calls.
     pub(super) calls: u64,
 }
 
-/// Measures the consequences of deviations: after each, a search looks for a win within the limits.
+/// Measures the consequences of deviations. After each deviation, a search looks for a win within the limits.
 pub(super) fn costs(
     deviations: &[Deviation],
     analysis: &Analysis,

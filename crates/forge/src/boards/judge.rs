@@ -1,4 +1,4 @@
-//! The judge in a board search. Checks constraints, from cheapest to most expensive, and then measures the quality.
+//! The judge in a board search. It checks the constraints, cheapest first, and then measures the quality of the board.
 
 use super::deviations::{Deviation, costs};
 use super::likeness::are_one_board;
@@ -29,13 +29,13 @@ const RANDOM_TICKS: usize = 400;
 const BEYOND: usize = 20;
 /// The minimum and maximum fraction of deviations that should have a cost.
 pub(super) const TRAPS: (f64, f64) = (0.3, 0.8);
-/// The desired fraction of fatal deviations. Some deviations must be fatal because players do not notice the cost of a
-/// mere dead end.
+/// The desired fraction of fatal deviations. Some deviations must be fatal because players do not notice that they have
+/// reached a mere dead end.
 const DEATHS: f64 = 0.15;
-/// The fraction of a win at which a wrong choice should still have a cost. Otherwise, the player carries out the rest of
-/// the win in safety.
+/// The fraction of a win at which a wrong choice should still have a cost. Otherwise, the rest of the win is free of
+/// risk.
 const LAST: f64 = 0.7;
-/// The number of cells that a mover should sweep.
+/// The number of cells that a self-moving sprite should sweep.
 const SWEEP: f64 = 5.0;
 /// The maximum fraction of the board that may be one empty rectangle.
 const EMPTY: f64 = 0.25;
@@ -45,9 +45,9 @@ const DEAD: f64 = 0.4;
 const TRAPS_WEIGHT: f64 = 0.24;
 /// The weight of the last costly deviation in the quality.
 const LAST_WEIGHT: f64 = 0.10;
-/// The distance from the best quality beyond which a board is not examined closely.
+/// The maximum amount by which a board's quality may fall short of the best for the board to be examined closely.
 const MARGIN: f64 = 0.05;
-/// The number of alternative random futures in which a win is replayed.
+/// The number of alternative random futures in which a win is replayed to test whether it still wins.
 const FUTURES: u64 = 6;
 /// The number of constraints checked before the win search.
 const SEARCHED: f64 = 3.0;
@@ -55,7 +55,7 @@ const SEARCHED: f64 = 3.0;
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 10.0;
-/// The fraction of supplies that a win may leave where they were. One spare supply is always allowed.
+/// The maximum fraction of supplies that a win may leave in place. One unused supply is always allowed.
 const SPARE: f64 = 0.25;
 
 /// The judge in a board search.
@@ -65,7 +65,7 @@ pub(super) struct Judge<'a> {
     pub(super) budget: &'a BoardBudget,
     pub(super) variation: &'a BoardVariation<'a>,
     pub(super) ablations: Ablations,
-    /// The judges of the gates that a single board should meet.
+    /// The judges of the gates that can be applied to a single board.
     pub(super) panel: Option<Panel>,
     pub(super) seed: Seed,
 }
@@ -82,8 +82,8 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// Returns the judgement on an infeasible board, from the number of constraints it meets and the degree to which
-    /// it meets the next.
+    /// Returns the judgement on an infeasible board, given the number of constraints that it meets and the degree to
+    /// which it meets the next one.
     fn failed(met: f64, degree: f64, calls: u64) -> Judged {
         let feasibility = ((met + degree.clamp(0.0, 1.0)) / CONSTRAINTS).min(0.999);
         Judged {
@@ -96,8 +96,8 @@ impl Judged {
 }
 
 impl Judge<'_> {
-    /// Judges a board. Skips the deviations if the board is clearly worse than the best so far, because no deviation
-    /// cost could change that. Skipped deviations count as costing nothing.
+    /// Judges a board. Skips the deviations if the board is clearly worse than the best so far, because the cost of its
+    /// deviations could hardly change that. Skipped deviations count as having no cost.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);
@@ -161,8 +161,8 @@ impl Judge<'_> {
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
-    /// Returns `None` if an idle player does not win or lose soon. Otherwise returns how nearly the level meets this
-    /// condition, from 0 to 0.5.
+    /// Returns `None` if an idle player neither wins nor loses too soon. Otherwise, returns how nearly the level meets
+    /// this condition, from 0 to 0.5.
     fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
         let game = self.analysis.game();
         let mut state = game.start(level, self.seed);
@@ -178,7 +178,7 @@ impl Judge<'_> {
         None
     }
 
-    /// Counts the winning random episodes, and stops at the first one over the limit.
+    /// Counts the random episodes that win. Stops at the first win over the limit.
     fn lucky_plays(&self, level: &Level, calls: &mut u64) -> u64 {
         let game = self.analysis.game();
         let mut wins = 0;
@@ -238,7 +238,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Returns the fraction of a win's requirements that the best state of a search had met.
+    /// Returns the fraction of a win's requirements that the best state of a search meets.
     fn nearness(&self, level: &Level, missing: u32) -> f64 {
         let start = self.analysis.game().start(level, self.seed);
         let goals = self.analysis.goals().iter().filter(|goal| goal.win);
@@ -306,11 +306,11 @@ impl Judge<'_> {
     }
 }
 
-/// The gates that a single board can meet or miss.
+/// The gates that can be applied to a single board.
 pub(super) const ALONE: CriterionSet =
     CriterionSet::of(&[Criterion::Drama, Criterion::NoDeadTime, Criterion::ActorsMatter, Criterion::Tight]);
 
-/// Returns the quality of a won board. Necessity weighs most, followed by costly wrong choices. Missed gates lower the
+/// Returns the quality of a won board. Costly wrong choices weigh most, followed by necessity. Unmet gates lower the
 /// total.
 fn quality(measures: &BoardMeasures) -> f64 {
     let (low, high) = TRAPS;

@@ -1,13 +1,14 @@
-//! The similarity of two boards, up to mirroring and rotation. Prevents a course from showing the same board twice.
+//! The similarity of two boards, up to mirroring and rotation. Used to prevent a course from repeating a board.
 
 use engine::Level;
 
-/// The similarity at which two levels of a course count as the same board. The median of the highest similarity within
-/// each hand-written game is 0.54. Two of 27 such games have levels above this threshold.
+/// The similarity at which two levels of a course count as the same board. Within a hand-written game, the highest
+/// similarity between two levels is 0.54 in the median. Two of the 27 hand-written games have levels above this
+/// threshold.
 const ONE_BOARD: f64 = 0.75;
 /// The symbol of bare floor in the levels of courses.
 const FLOOR: u8 = b'.';
-/// The number of cells by which boards are shifted beyond each other's edge.
+/// The maximum number of cells by which a board may overhang the edge of the other board when the two are aligned.
 const SHIFT: isize = 1;
 
 /// The symbols of a board, row by row.
@@ -17,7 +18,7 @@ struct Board {
     cells: Vec<u8>,
 }
 
-/// Returns `true` if two levels show the same board, up to mirroring, rotation, a shift, and a few cells.
+/// Returns `true` if two levels show the same board except for mirroring, rotation, a shift, and a few cells.
 pub(crate) fn are_one_board(one: &Level, other: &Level) -> bool {
     likeness(&Board::of(one), &Board::of(other)) >= ONE_BOARD
 }
@@ -58,7 +59,7 @@ impl Board {
         self.cells.iter().filter(|&&symbol| symbol != FLOOR).count()
     }
 
-    /// Returns the fraction of equal cells with the second board shifted, ignoring cells that are bare floor on both
+    /// Returns the fraction of equal cells after shifting the second board, ignoring cells that are bare floor on both
     /// boards.
     fn overlap(&self, other: &Board, (dx, dy): (isize, isize)) -> f64 {
         let (mut equal, mut shared) = (0, 0);

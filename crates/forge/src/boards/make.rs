@@ -9,7 +9,8 @@ use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
 use validators::{Effort, Panel};
 
-/// The number of boards to request per board in the budget. The budget counts only boards that reach the win search.
+/// The number of boards that the search may propose per board in the budget, which counts only boards that reach the
+/// win search.
 const CHEAP: usize = 3;
 /// The maximum number of tidied boards to judge at the end.
 const TIDIED: usize = 12;
@@ -19,9 +20,10 @@ const SCRUTINIZED: usize = 3;
 const TIDY_LOSS: f64 = 0.01;
 
 /// Generates a board for any game: composes boards, anneals the best of them, and tidies the result. Returns `None` if
-/// no board within the budget had a win that met the order, or if no character of the game places exactly one avatar.
+/// no board within the budget has a win that meets the order, or if no character of the game places exactly one avatar.
 ///
-/// The same arguments make the same board on every machine. Cost: up to about [`BoardBudget::total`] forward-model calls.
+/// The same arguments produce the same board on every machine. Cost: up to about [`BoardBudget::total`] forward-model
+/// calls.
 pub fn make_board(
     analysis: &Analysis,
     order: &BoardOrder,
@@ -100,15 +102,15 @@ struct Best {
 }
 
 impl Best {
-    /// Returns `true` if a board was won, and neither the compositions nor many later changes have improved on the best
-    /// board.
+    /// Returns `true` if a board was won, and the search has not improved on it for a long time after the initial
+    /// compositions.
     fn is_stale(&self, budget: &BoardBudget) -> bool {
         !self.boards.is_empty()
             && self.stale >= budget.patience
             && self.evaluations >= budget.compositions + budget.patience
     }
 
-    /// Returns `true` if many boards were searched, and no win met the order.
+    /// Returns `true` if many boards were searched but no win met the order.
     fn is_hopeless(&self, budget: &BoardBudget) -> bool {
         self.boards.is_empty() && self.searched >= budget.hopeless
     }
@@ -159,8 +161,8 @@ impl Best {
         }
     }
 
-    /// Judges the best board again, with a larger budget in calls. If its shortest win turns out to be too short, the
-    /// previous best board replaces it and is judged again.
+    /// Judges the best board again, with a larger budget in calls. If the board fails, for example because its shortest
+    /// win turns out to be too short, the previous best board is judged instead.
     fn scrutinize(&mut self, judge: &Judge<'_>) {
         let last = self.boards.len().saturating_sub(SCRUTINIZED);
         self.boards.drain(..last);
@@ -235,7 +237,7 @@ mod tests {
         assert!(calls(2) < calls(24));
     }
 
-    /// Every win takes the plum. The point for a bead changes no win.
+    /// Every win collects the plum. No win depends on the points for the bead.
     #[test]
     fn ordered_mechanics_matter() {
         let text = GAME

@@ -6,14 +6,15 @@ use base::Seed;
 use engine::{Action, Analysis, Episode, Game, Level, Outcome};
 use std::collections::BTreeMap;
 
-/// The minimum length, as a percentage of the known win's ticks, at which a win without an interaction counts as
-/// different. Players do not notice that a way is a little longer.
+/// The minimum length of a win without an interaction, as a percentage of the known win's ticks, at which the two wins
+/// count as different. Players do not notice a slightly longer route.
 const LONGER: usize = 140;
-/// The minimum length of the known win, as a percentage of a win without a threat, at which the threat matters.
+/// The minimum length of the known win, as a percentage of the length of a win without a threat, at which the threat
+/// matters.
 const SHORTER: usize = 115;
-/// The number of deviations from a win that are tried to find out which threats kill.
+/// The number of deviations from a win that are tried to find the threats that kill.
 const DEVIATIONS: usize = 20;
-/// The minimum number of these deviations that a threat must make fatal.
+/// The minimum number of deviations that a threat must make fatal in order to matter.
 const FATAL: usize = 2;
 
 /// Variants of a game with their analyses. Each variant omits one interaction, or all interactions of a mechanic.
@@ -37,11 +38,11 @@ impl Ablations {
         Ablations { without, mechanics }
     }
 
-    /// Returns which mechanics matter for a level's win, and the number of calls. `needed` lists the interactions that the
-    /// win needs. Mechanics without interactions are left out.
+    /// Returns which mechanics matter for a level's win, and the number of calls. `needed` lists the interactions that
+    /// the win needs. Mechanics without interactions are omitted from the result.
     ///
-    /// A mechanic matters if the win needs one of its interactions. It also matters as a threat: if wrong keys are fatal
-    /// because of the mechanic, or if a clearly shorter win exists without the mechanic.
+    /// A mechanic matters if the win needs one of its interactions. A threat also matters if it makes wrong keys fatal,
+    /// or if a clearly shorter win exists without it.
     pub(crate) fn matter(
         &self,
         analysis: &Analysis,
@@ -72,8 +73,8 @@ impl Ablations {
     }
 
     /// Returns which of the given interactions a level's win needs, and the number of calls. Each search for a
-    /// different win may make `calls` calls. A search for the known win should succeed with as many calls, because
-    /// otherwise a search without success shows nothing.
+    /// different win may make `calls` calls. The number should be large enough to find the known win, because otherwise
+    /// a failed search proves nothing.
     pub(crate) fn needed(
         &self,
         lines: impl IntoIterator<Item = usize>,
@@ -146,7 +147,7 @@ mod tests {
         assert!(found.win.is_none() && found.is_proved, "there is no key");
     }
 
-    /// The way beside the thorns is longer. The beads are beside the way.
+    /// The route beside the thorns is longer. The beads lie beside the route.
     #[test]
     fn thorns_matter_and_beads_do_not() {
         let text = GAME

@@ -27,7 +27,7 @@ pub struct BoardOrder {
 }
 
 impl BoardOrder {
-    /// Creates an order with the default contents and length for the brief's slot.
+    /// Creates an order with the default contents and win length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
         BoardOrder { brief, mechanics: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
@@ -38,7 +38,7 @@ base::with_defaults! {
     /// The budget of a board search. The budget contains no durations, so the result is the same on every machine.
     #[derive(Clone, Debug, PartialEq)]
     pub struct BoardBudget {
-        /// The number of initial compositions. The search then changes the best composition.
+        /// The number of initial compositions. The search then modifies the best of them.
         pub compositions: usize = 24,
         /// The total number of boards that reach the win search, including compositions.
         pub evaluations: usize = 60,
@@ -50,8 +50,8 @@ base::with_defaults! {
         pub calls: u64 = 40_000,
         /// The maximum number of forward-model calls in a search for a win without an interaction or after a deviation.
         pub small_calls: u64 = 5_000,
-        /// The factor by which `calls` and `small_calls` are multiplied for the final judging of the best board. With a
-        /// factor of 1, there is no final judging.
+        /// The factor by which `calls` and `small_calls` are multiplied when the best board is finally judged. A factor
+        /// of 1 omits the final judging.
         pub scrutiny: u64 = 8,
         /// The number of deviations from the win to try.
         pub deviations: usize = 10,
@@ -94,10 +94,10 @@ pub struct BoardMeasures {
     pub traps: f64,
     /// The fraction of deviations after which the player is dead.
     pub deaths: f64,
-    /// The time of the last deviation that has a cost, as a fraction of the time of the last deviation tried. After it,
-    /// the rest of the win is safe.
+    /// The tick of the last deviation that has a cost, as a fraction of the tick of the last deviation tried. After
+    /// that tick, the rest of the win is safe.
     pub last: f64,
-    /// The fraction of placed types, not counting walls and floor, that take part in the win.
+    /// The fraction of placed types, not counting walls and floor, that are involved in the win.
     pub used: f64,
     /// The fraction of the gates that the board meets on its own; 1.0 if no gates were requested.
     pub gates: f64,

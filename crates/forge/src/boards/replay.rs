@@ -12,19 +12,21 @@ pub(super) struct Events {
     pub(super) firsts: Vec<usize>,
     /// The fraction of placed types, not counting walls and floor, that took part.
     pub(super) used: f64,
-    /// The fraction of placed types with an idiom in [`HANDLED`] that took part.
+    /// The fraction of placed types that take part, among those with an idiom in [`HANDLED`].
     pub(super) handled: f64,
-    /// The number of supplies that the win leaves where they were: pushed sprites, and resources that can be held.
+    /// The number of supplies that the win leaves in place. Supplies are sprites to be pushed, and resources that can
+    /// be held.
     pub(super) spare: usize,
     /// The number of supplies at the start.
     pub(super) supplies: usize,
-    /// The longest stretch without an interaction of `firsts`, as a fraction of the win's ticks.
+    /// The longest stretch of the win in which no interaction of `firsts` is executed, as a fraction of the win's
+    /// ticks.
     pub(super) dead: f64,
     /// The mean number of cells swept by self-moving sprites.
     pub(super) sweep: Option<f64>,
 }
 
-/// The idioms of types that the player handles. A win that leaves such a type alone shows that nobody needs the type.
+/// The idioms of types that the player handles. A win that leaves such a type alone shows that the type is not needed.
 const HANDLED: [Idiom; 4] = [Idiom::Thing, Idiom::Heavy, Idiom::Spot, Idiom::Exit];
 
 /// Returns `true` if an interaction only stops or turns its first sprite, which makes it a guard.
@@ -93,7 +95,7 @@ pub(super) fn events(analysis: &Analysis, level: &Level, win: &Episode) -> Event
     }
 }
 
-/// Returns the types on a board that could participate.
+/// Returns the types on a board that could take part in a win.
 fn placed(game: &Game, analysis: &Analysis, level: &Level) -> BTreeSet<SpriteType> {
     let types = level.cells().iter().flat_map(|&symbol| game.places(symbol)).copied();
     let plays = |stype: &SpriteType| {
@@ -103,7 +105,7 @@ fn placed(game: &Game, analysis: &Analysis, level: &Level) -> BTreeSet<SpriteTyp
     types.filter(plays).collect()
 }
 
-/// Returns `true` if the player needs the type's sprites only for what can be done with them: by pushing or holding them.
+/// Returns `true` if the player needs the type's sprites only in order to push or hold them.
 fn is_supply(analysis: &Analysis, stype: SpriteType) -> bool {
     let is_held = analysis.resources().iter().any(|resource| resource.stype == stype);
     (is_held || analysis.role(stype) == Role::Pushable) && !analysis.aims().protect.contains(&stype)

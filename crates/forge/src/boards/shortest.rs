@@ -1,4 +1,4 @@
-//! Layered breadth-first search for a shortest win, with layers that narrow when calls run low.
+//! Layered breadth-first search for a shortest win, with layers that narrow as the calls run out.
 
 use engine::analysis::{Goal, StateAbstraction};
 use engine::{Action, Analysis, Outcome, SearchKey, State};
@@ -7,7 +7,7 @@ use std::mem;
 
 /// The minimum number of states in a narrowed layer.
 const LEAST_WIDTH: u64 = 40;
-/// The maximum number of spare states, some tens of megabytes.
+/// The maximum number of spare states, which take some tens of megabytes.
 const MAX_SPARE: usize = 4096;
 
 /// The limits of a search.
@@ -28,7 +28,7 @@ pub(super) struct Found {
     /// number of ticks.
     pub(super) is_proved: bool,
     pub(super) calls: u64,
-    /// The minimum number of sprites that must still be removed or created for a win, across all states found.
+    /// The minimum number of sprites that must still be removed or created for a win, over all states found.
     pub(super) missing: u32,
 }
 
@@ -37,8 +37,8 @@ pub(super) struct Found {
 type Met = std::collections::HashSet<SearchKey>;
 
 /// Searches for a shortest win layer by layer. Once half of the calls are spent, keeps only the most promising states
-/// per layer, spread over the avatar's positions. In a stochastic game, the future of the start state represents all
-/// futures, and states are distinguished without their randomness. Such a search proves nothing.
+/// per layer, spread over the avatar's positions. In a stochastic game, the search considers only the start state's own
+/// random future and ignores the random stream when it compares states. Such a search proves nothing.
 pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -> Found {
     let is_certain = analysis.is_deterministic_from(start);
     let abstraction = analysis.abstraction(start).without_chance();
@@ -141,8 +141,8 @@ impl Search<'_> {
         (left / (6 * ticks.max(1) as u64)).max(LEAST_WIDTH)
     }
 
-    /// Returns the most promising states of a layer: the fewest missing sprites first, alternating between the
-    /// avatar's positions.
+    /// Returns the most promising states of a layer. States with the fewest missing sprites come first, and the
+    /// avatar's positions alternate.
     fn narrowed(&mut self, layer: Vec<(u32, State)>, width: usize) -> Vec<(u32, State)> {
         let mut turns: BTreeMap<(u32, Option<(i32, i32)>), u32> = BTreeMap::new();
         let mut ranked: Vec<(u32, usize)> = Vec::with_capacity(layer.len());

@@ -17,7 +17,7 @@ pub struct Candidate {
     pub title: String,
     /// A description of the game for players.
     pub description: String,
-    /// The way to win, as explained to players.
+    /// The way to win, explained to players.
     pub goal: String,
     /// The kind of game.
     pub kind: String,
@@ -40,7 +40,7 @@ pub struct MadeGame {
     pub levels: Vec<FoundLevel>,
     /// The findings about all levels as a whole.
     pub together: Vec<Judgement>,
-    /// The episode that wins each level.
+    /// The winning episode of each level.
     pub witnesses: Vec<Episode>,
     /// The seed for levels and judges.
     pub seed: SeedPath,

@@ -1,4 +1,4 @@
-//! Generates invented games by each method.
+//! Generation of invented games by each method.
 
 use super::apart::FarInventions;
 use super::attempt::Attempted;
@@ -19,8 +19,8 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The divisor of an attempt's looks that determines the number of looks in a further archive round. Such a round
-/// follows if the judges have rejected the elites.
+/// The divisor that reduces the number of looks in each archive round after the first. A further round follows if the
+/// judges have rejected the elites of the last one.
 const MENDING: usize = 3;
 /// The maximum number of games in a round. Changing this number changes the generated games.
 const ROUND: usize = 4;
@@ -29,8 +29,9 @@ const ROUNDS: u32 = 4;
 /// The maximum number of elites to judge per archive round.
 const ELITES: usize = 3;
 
-/// Invents game `number` of an order, if the order's number of attempts suffices. Prefers the mechanics with the lowest
-/// counts in the census, and keeps the game apart from known games only. Cost: several core minutes per game.
+/// Invents game `number` of an order. Returns no game if every attempt that the order allows fails. Prefers the
+/// mechanics with the lowest counts in the census, and keeps the game apart from known games only. Cost: several core
+/// minutes per game.
 pub fn invent_one(
     order: &GameOrder,
     census: &Census,
@@ -43,10 +44,10 @@ pub fn invent_one(
     (made, tally)
 }
 
-/// Invents the games of an order in rounds. Each round knows the games of all earlier rounds. Any two of the games and
-/// the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a title or most of
-/// their names. `canary` marks the games' files. The same order, known games and seed give the same games on any number
-/// of threads. Cost: several core minutes per game, on all threads of the current rayon pool.
+/// Invents the games of an order in rounds. Each round takes the games of all earlier rounds into account. Any two of
+/// the games and the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a
+/// title or most of their names. `canary` marks the games' files. The same order, known games and seed give the same
+/// games on any number of threads. Cost: several core minutes per game, on all threads of the current rayon pool.
 ///
 /// If too few games succeed, the set contains fewer games than requested.
 ///
@@ -101,8 +102,8 @@ impl Maker<'_> {
         }
     }
 
-    /// Draws inventions, or anneals them, until one is accepted. If a search finds no invention, the judges receive the
-    /// drawn invention.
+    /// Draws or anneals inventions until one is accepted. If a search finds no invention, the judges receive the drawn
+    /// one.
     fn invent_in_attempts<'a>(&self, variation: impl Fn(u32) -> FarInventions<'a>, number: u32) -> Attempted {
         let mut attempted = Attempted::default();
         for attempt in 0..self.order.effort.attempts {
@@ -122,9 +123,9 @@ impl Maker<'_> {
         attempted
     }
 
-    /// Fills an archive with diverse inventions, and judges elites that are far apart until one is accepted. Each
-    /// attempt is a round. The first round fills the archive, and later rounds refill the cells that the judges
-    /// rejected.
+    /// Fills an archive with diverse inventions, and judges elites, spread far apart in the archive, until one is
+    /// accepted. Each attempt is a round. The first round fills the archive, and later rounds refill the cells that the
+    /// judges rejected.
     fn invent_from_archive(&self, variation: &FarInventions<'_>, number: u32) -> Attempted {
         let GameEffort { attempts, looks, .. } = self.order.effort;
         let (seed, looks) = (self.seed_of(number), looks as usize);

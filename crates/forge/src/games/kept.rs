@@ -1,4 +1,4 @@
-//! Attempt results as text, saved to disk so that an interrupted run can be resumed with byte-identical output.
+//! Attempt results as text. They are saved to disk so that an interrupted run can resume and produce identical bytes.
 
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
@@ -20,7 +20,7 @@ pub struct Kept {
     pub tally: Tally,
 }
 
-/// A finished game as texts.
+/// A finished game in text form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptGame {
@@ -46,7 +46,7 @@ impl Kept {
         Kept { game, tally: attempted.tally.clone() }
     }
 
-    /// Restores the result; `None` if the texts do not form a game. The judges' reports are not restored.
+    /// Restores the result; `None` if the texts do not form a game. The judges' reports are lost.
     pub(super) fn restored(self) -> Option<Attempted> {
         let made = match self.game {
             Some(game) => Some(game.restored()?),

@@ -98,13 +98,14 @@ impl FoundLevel {
         used_rules(game, &self.level, win).into_iter().filter(|line| !guards.contains(line)).collect()
     }
 
-    /// Returns the level's ease for the ladder, from 0 to 1. If no ladder played, the ease is 0 for all levels.
+    /// Returns the level's ease as measured by the ladder, from 0 to 1. If no ladder played, the ease is 0 for all
+    /// levels.
     pub(crate) fn ease(&self) -> f64 {
         self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
     }
 
-    /// Returns the level's card and the winning episode; `None` unless the judges include those for idle play,
-    /// random play and winning.
+    /// Returns the level's card and its winning episode; `None` unless idle play, random play and winnability have all
+    /// been judged.
     pub(crate) fn card(&self, number: usize, mcts: &Rate) -> Option<(LevelCard, Episode)> {
         let report = &self.report;
         let rate = |criterion: Criterion| -> Option<Rate> { report.finding(criterion)?.measured.clone() };

@@ -61,8 +61,8 @@ pub fn make_games(
 }
 
 /// Builds game `number` of an order whose games are generated one by one, from the [rules](RuleSets) assigned to that
-/// number. The game is kept apart from known games only, and does not depend on the other games of the order. Returns
-/// no game if all attempts fail. Cost and reproducibility are as for [`make_games`].
+/// number. The game is kept apart from known games, but does not depend on the other games of the order. Returns no
+/// game if all attempts fail. Cost and reproducibility are as for [`make_games`].
 pub fn make_one(
     order: &GameOrder,
     sets: &RuleSets,
@@ -94,7 +94,7 @@ pub fn attempt_kernel(
     (attempted.made, attempted.tally)
 }
 
-/// The reason for leaving a position empty because no rules are left for it.
+/// The reason for leaving a position of the order empty.
 pub const NO_RULES: &str = "no rules left";
 
 /// A game maker that supports every method.
@@ -106,7 +106,7 @@ pub(super) struct Maker<'a> {
 }
 
 impl GameSet {
-    /// Returns the set, or an error if it is empty although games were requested.
+    /// Returns the set, or an error if games were requested but the set is empty.
     pub(super) fn unless_empty(self, order: &GameOrder) -> Result<GameSet, GamesError> {
         match self.games.is_empty() && order.count > 0 {
             true => Err(GamesError::NoneAccepted { tally: Box::new(self.tally) }),
@@ -116,7 +116,7 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// Creates a maker that builds games from kernels. Such games are drawn, regardless of the order's method.
+    /// Creates a maker that builds games from kernels. Such games are drawn at random, whatever the order's method.
     fn of_kernels(
         order: &'a GameOrder,
         known: &'a [GameForm],
@@ -144,7 +144,7 @@ impl<'a> Maker<'a> {
         attempted
     }
 
-    /// Judges candidates in turn until one is accepted.
+    /// Judges the candidates one by one until one is accepted.
     pub(super) fn judge_in_turn<R: Rules>(
         &self,
         candidates: &[R],
@@ -191,7 +191,7 @@ mod tests {
     use super::*;
     use crate::pipeline::tests::order;
 
-    /// A chain of releases ends in this situation once it has used up all rules.
+    /// A chain of releases reaches this state once it has used up all rules.
     #[test]
     fn no_rules_are_no_games() {
         let (order, seed) = (order(), SeedPath::from(Seed::from_text("none")));

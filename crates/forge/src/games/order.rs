@@ -1,4 +1,4 @@
-//! Game orders, which state what to generate.
+//! Game orders, which specify the games to generate.
 
 use crate::levels::Method;
 use generators::games::Kind;
@@ -9,7 +9,7 @@ use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 /// A game order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
-    /// The method of inventing games. Games from kernels are drawn, regardless of the method.
+    /// The method of inventing games. Games from kernels are always drawn at random.
     pub method: Method,
     /// The number of games.
     pub count: u32,
@@ -51,9 +51,10 @@ impl Board {
 /// The effort per game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GameEffort {
-    /// The number of attempts: constructive games, searches, or rounds of archives.
+    /// The number of attempts. An attempt is a drawn game, a search, or an archive round, depending on the method.
     pub attempts: u32,
-    /// The number of attempts to build a game from a kernel with one set of rules, for independently generated games.
+    /// The number of attempts to build a game from a single set of rules, for games from kernels that are generated
+    /// independently.
     pub patience: u32,
     /// The number of inventions that a search evaluates in one attempt.
     pub looks: u32,
@@ -81,7 +82,7 @@ impl GameOrder {
     }
 
     /// Creates an order of `count` invented games by a method, with five levels each. Many rule sets are tried, because
-    /// most of them have no boards worth playing.
+    /// most of them yield no boards worth playing.
     pub fn of_inventions(method: Method, count: u32) -> GameOrder {
         let order = GameOrder::new(count);
         let attempts = match method {

@@ -32,7 +32,7 @@ pub enum PuzzleRules {
     Pushing,
     /// Lock puzzles, in which doors use up keys.
     Locks(Retold<LockRules>),
-    /// Yards, in which the player carries parcels between carts.
+    /// Yards, in which the player carries parcels past moving carts.
     Yards(Retold<YardRules>),
     /// Pushing puzzles among strays (sprites that wander at random and kill).
     Strays(Retold<PushRules>),
@@ -59,7 +59,7 @@ impl PuzzleRules {
 #[derive(Clone, Debug)]
 pub struct Retold<Rules> {
     rules: Rules,
-    /// The original characters, each with the game's character.
+    /// The pairs of an original character and the corresponding character in the game.
     symbols: Vec<(char, char)>,
 }
 
@@ -69,12 +69,12 @@ impl<Rules> Retold<Rules> {
         Retold { rules, symbols: symbols.chars().zip(own.chars()).collect() }
     }
 
-    /// Translates a level to the game's characters.
+    /// Translates a level from the original characters to the game's.
     fn translate(&self, text: &str) -> String {
         text.chars().map(|symbol| self.symbol(symbol)).collect()
     }
 
-    /// Translates a character to the game's character.
+    /// Translates an original character to the game's character.
     fn symbol(&self, plain: char) -> char {
         self.symbols.iter().find(|(other, _)| *other == plain).map_or(plain, |pair| pair.1)
     }
@@ -84,8 +84,8 @@ impl<Rules> Retold<Rules> {
 pub(crate) enum PuzzleGenerator<'a> {
     /// Generates pushing puzzles that meet a target.
     Pushing(Box<PuzzleVariation<'a>>),
-    /// Generates pushing puzzles without a target. The range limits the number of actions in a win, as the tier
-    /// requires.
+    /// Generates pushing puzzles without a target. The range gives the numbers of actions in a win that the tier
+    /// allows.
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
     Yards(YardConfig, &'a Retold<YardRules>),
@@ -134,7 +134,8 @@ impl PuzzleGenerator<'_> {
     }
 }
 
-/// The exclusive maximum number of actions in a win among strays. The longest fuse allows 50% more actions.
+/// The exclusive upper limit on the number of actions in a win among strays. The longest fuse leaves time for 50% more
+/// actions.
 const MOST_ACTIONS: usize = 160;
 /// The maximum number of floor plans to examine per level.
 const FLOOR_PLANS: usize = 20_000;
@@ -203,8 +204,8 @@ impl PuzzleLevels {
     }
 }
 
-/// Returns the target fraction of dead ends in a lock puzzle. The target exceeds the tier's threshold because a
-/// bounded search does not prove all dead ends.
+/// Returns the target fraction of dead ends in a lock puzzle. The target exceeds the tier's threshold because a bounded
+/// search cannot prove every dead end.
 fn dead_ends(tier: Tier) -> f64 {
     match tier {
         Tier::One | Tier::Two => 0.0,
@@ -224,9 +225,9 @@ fn traffic(tier: Tier) -> (usize, f64) {
     }
 }
 
-/// Returns the target for a tier; `None` for tiers without a target. The generator counts the actions of a win with
-/// the minimum number of pushes. The shortest win has fewer actions, so there is a margin. Puzzles with more than
-/// three pushable objects require more pushes and actions.
+/// Returns the target for a tier; `None` for tiers without a target. The generator counts the actions of a win with the
+/// minimum number of pushes. The shortest win has fewer actions, so the target includes a margin. Puzzles with more
+/// than three pushable objects require more pushes and actions.
 fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     let pushes = match tier {
         Tier::One | Tier::Two => return None,
@@ -243,7 +244,8 @@ fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
 
 /// Returns a puzzle's win, whether the win is proved to be the shortest, and the number of calls. Returns the shortest
 /// win if `calls` forward-model calls suffice for the proof, and otherwise the generator's own win. In stochastic
-/// games nothing can be proved, so no search improves a known win. Returns `None` if the known actions do not win.
+/// games, nothing can be proved, so a known win is returned without a search. Returns `None` if the known actions do
+/// not win.
 pub(crate) fn win(
     analysis: &Analysis,
     level: &Level,
@@ -293,8 +295,8 @@ mod tests {
         }
     }
 
-    /// In a different theme, a lock puzzle or a yard is the same level, and the same actions win it. Outside of
-    /// `cargo xtask sweep`, this test checks every second set of rules.
+    /// In a different theme, a lock puzzle or a yard keeps its level and its winning actions. Outside of
+    /// `cargo xtask sweep`, this test checks only every second set of rules.
     #[test]
     fn puzzles_are_won_under_every_theme() {
         let seed = Seed::from_text("puzzles");
@@ -335,7 +337,7 @@ mod tests {
         }
     }
 
-    /// In a different theme, too, an object pushed off a mat lands on floor, so every cell has ground.
+    /// In every theme, an object pushed off a mat lands on floor, so every cell has ground.
     #[test]
     fn puzzles_have_floor_under_every_theme() {
         for rules in PushRules::ALL.into_iter().filter(|rules| rules.name().contains("mat")).take(2) {

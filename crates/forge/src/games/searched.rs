@@ -1,4 +1,4 @@
-//! Searches for invented games: evaluates inventions quickly, and passes the best to the judges.
+//! Searches for invented games. They evaluate inventions quickly and pass the best to the judges.
 
 use super::attempt::Attempted;
 use super::make::Maker;
@@ -9,7 +9,7 @@ use base::Seed;
 use generators::invention::{Invention, Profile};
 use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 
-/// The feasibility of a game that passed a quick evaluation and was rejected by the final judges.
+/// The feasibility of a game that passed a quick evaluation but was rejected by the final judges.
 pub(super) const REFUSED: f64 = 0.95;
 
 /// Evaluates an invention cheaply. Returns the evaluation and the number of forward-model calls. Costs one `quick look`

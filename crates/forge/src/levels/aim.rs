@@ -16,7 +16,7 @@ pub(super) struct Aim<'a> {
 
 /// The aim's assessment of a winnable level.
 pub(super) struct Told {
-    /// The degree to which the win meets the order's demands, from 0.0 to 1.0.
+    /// The degree to which the win meets the order's requirements, from 0.0 to 1.0.
     pub(super) constraint: f64,
     /// The quality of the level, from 0.0 to 1.0.
     pub(super) objective: f64,
@@ -28,15 +28,16 @@ pub(super) struct Told {
 
 /// The number of episodes per ladder player in a quick evaluation.
 const PLAYS: u64 = 6;
-/// The margin at the boundaries of a label's ease range that searches avoid. A second measurement may place a level in
-/// this margin beyond the boundary.
+/// The margin that searches keep from the boundaries of a label's ease range. A second measurement may move a level
+/// that lies within this margin across the boundary.
 const MARGIN: f64 = 0.08;
-/// The margin that an archive avoids. Levels outside the remaining range count for at most 90%.
+/// The margin that an archive keeps from these boundaries. Levels closer to a boundary, or beyond it, reach at most 90%
+/// of the constraint.
 const KEPT: f64 = 0.03;
 const CLOSE: f64 = 0.9;
 /// The win rate over all ladder episodes above which a second ladder is almost certain to have a winner too.
 const SURELY_BEATEN: f64 = 0.05;
-/// The required win length, as the number of times that the avatar could cross the board during the win.
+/// The desired length of a win, as a multiple of the board's columns plus its rows.
 const CROSSINGS: f64 = 2.5;
 
 /// The measures available as archive axes: the measures of the win, then [`LevelMeasure::ALL`].
@@ -74,8 +75,8 @@ impl<'a> Aim<'a> {
         let (objective, calls) = match (&self.climb, self.order.difficulty) {
             (Some(climb), Some(asked)) => {
                 let ladder = climb.ladder(case);
-                // Levels are picked from an archive because they lie far apart, not because they are the best, so all
-                // of them must bear the label.
+                // Levels are picked from an archive because they lie far apart rather than for their quality, so all of
+                // them must have the label.
                 if self.order.method == Method::Evolutionary {
                     let missed = CLOSE * closeness(&ladder, asked, KEPT);
                     constraint = constraint.min(if bears(&ladder, asked, KEPT) { 1.0 } else { missed });
@@ -87,7 +88,7 @@ impl<'a> Aim<'a> {
         Told { constraint, objective, measures, calls }
     }
 
-    /// Returns a level's quality, regardless of the request. A good level's win is long for the board and involves
+    /// Returns a level's quality, regardless of the request. The win of a good level is long for its board and involves
     /// most rules. Its choices matter, a loss is never far away, and its walls form structures rather than noise.
     fn quality(&self, level: &Level, measures: &Measures) -> f64 {
         let sides = (level.columns() + level.rows()) as f64;
@@ -115,12 +116,12 @@ impl<'a> Aim<'a> {
 fn closeness(ladder: &Ladder, asked: Difficulty, margin: f64) -> f64 {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return 0.0 };
     let beyond = (low - ease).max(ease - high).max(0.0);
-    // A level that should be beaten rarely must still be beaten by some player, and not just by luck.
+    // Even a level that should rarely be won must be won by some player, and not only by luck.
     let beaten = (wins(ladder) / SURELY_BEATEN).min(1.0);
     (1.0 - beyond).max(0.0) * (0.8 + 0.2 * beaten)
 }
 
-/// Returns the part of a label's ease range that is more than a margin away from any other label.
+/// Returns the part of a label's ease range that lies more than a margin away from all other labels.
 fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     let [low, high] = label.eases()?;
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])

@@ -8,9 +8,9 @@ use generators::Axis;
 const AXES: usize = 2;
 /// The minimum number of bins of an axis.
 const LEAST_BINS: usize = 8;
-/// The number of archive cells per requested level.
+/// The number of archive cells provided per requested level.
 const ROOM: usize = 6;
-/// The number of won levels that a sample must contain before win measures are used to distinguish levels.
+/// The minimum number of won levels in a sample for which the measures of wins serve to distinguish levels.
 const LEAST_WON: usize = 4;
 
 /// An archive's axes, and their indices among all measures.
@@ -24,7 +24,7 @@ impl Axes {
     /// hardly any level was won, chooses the two board measures in which all levels differ most. The ranges are those
     /// of the sample without outliers, extended by half at both ends.
     ///
-    /// The sample's looks contain all measures, in the order of [`names`].
+    /// Each look in the sample contains all measures, in the order of [`names`].
     pub(super) fn of<'a>(sample: impl Iterator<Item = &'a Look> + Clone, wanted: usize) -> Axes {
         let won: Vec<&Look> = sample.clone().filter(|look| look.is_won).collect();
         let is_enough = won.len() >= LEAST_WON;
@@ -50,7 +50,7 @@ impl Axes {
         Axes { axes: chosen.iter().map(axis).collect(), chosen }
     }
 
-    /// Picks this archive's axes from all measures.
+    /// Picks the values for this archive's axes from the values of all measures.
     pub(super) fn pick(&self, measures: &[f64]) -> Vec<f64> {
         self.chosen.iter().map(|&at| measures[at]).collect()
     }
@@ -61,8 +61,8 @@ mod tests {
     use super::*;
     use generators::Evaluation;
 
-    /// Returns a look at a level whose board differs in measures 5 and 6. For a won level, the win's length differs
-    /// too.
+    /// Returns a look at a level. Levels with different `at` differ in measures 5 and 6, and won levels also differ in
+    /// the length of the win.
     fn look(at: usize, is_won: bool) -> Look {
         let mut measures = vec![0.5; names().count()];
         measures[..OF_PLAY.len()].fill(0.0);
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(Axes::of([].iter(), 1000).axes[0].range, (0.0, 1.5));
     }
 
-    /// Unwon levels have no length, and would all share one bin.
+    /// Levels without a win have no win length, so they would all share one bin.
     #[test]
     fn levels_without_a_win_are_told_apart_by_their_boards() {
         let names: Vec<&str> = names().collect();

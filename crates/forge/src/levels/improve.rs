@@ -19,18 +19,18 @@ use std::collections::BTreeSet;
 
 /// The feasibility of a level that passed a quick evaluation and was rejected by the panel.
 const REFUSED: f64 = 0.95;
-/// The fraction of an archive's effort spent on new levels before breeding starts, because new levels differ more than
-/// edited levels do.
+/// The fraction of an archive's effort spent on new levels before breeding starts. New levels differ more than edited
+/// levels do.
 const CREATION: f64 = 0.4;
 /// The fraction of new levels after breeding has started.
 const FRESH: f64 = 0.1;
-/// The number of initial rounds that never accept two nearly equal levels. After these rounds, a nearly equal level is
-/// better than none.
+/// The number of initial rounds in which no two nearly equal levels are accepted. In later rounds, a nearly equal level
+/// is better than none.
 const CHOOSY: u32 = 2;
 
 impl Maker<'_> {
-    /// Anneals a level until the panel accepts a result. Each round is a separate search. There are more rounds if
-    /// most looks are cheap.
+    /// Searches for a level by annealing until the panel accepts a result. Each round is a separate search. The number
+    /// of rounds is higher if most looks are cheap.
     pub(super) fn search_level(
         &self,
         variation: &LevelSearch<'_>,
@@ -46,8 +46,8 @@ impl Maker<'_> {
         let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
         let mut round = 0;
         while left > 0.0 {
-            // Half of the looks search for a start that is worth improving, because levels differ more than edits can
-            // change them.
+            // Half of the looks search for a starting level that is worth improving, because edits change a level less
+            // than levels differ from each other.
             let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();
@@ -70,8 +70,8 @@ impl Maker<'_> {
                     return (None, tally);
                 }
             }
-            // A round has a minimum cost even if all its looks are cheap, and the maximum cost if nothing could be
-            // proposed.
+            // A round counts at a minimum cost even if all its looks are cheap, and at full cost if the search could
+            // not propose any level.
             let least = if spent > 0.0 { LEAST_EFFORT } else { 1.0 };
             left -= spent.max(least * looks as f64);
             round += 1;
@@ -112,7 +112,7 @@ impl Maker<'_> {
                     break;
                 }
             }
-            // Many levels that passed a look are not good, so all of them are judged before more levels are bred.
+            // Many levels that pass a look are not good enough, so all of them are judged before more levels are bred.
             while set.levels.len() < wanted {
                 let is_near =
                     |one: &Level, other: &Level| round < CHOOSY && self.likeness.distance(one, other) <= NEAR;
@@ -142,8 +142,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Creates levels until the effort is spent. These levels show by which measures the game's levels differ, and
-    /// seed an archive.
+    /// Creates levels until the effort is spent. These levels show which measures distinguish the game's levels, and
+    /// they form the initial archive.
     fn create_levels(
         &self,
         variation: &LevelSearch<'_>,

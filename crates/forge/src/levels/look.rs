@@ -15,15 +15,16 @@ use validators::{
 const IDLE_PLAYS: u32 = 2;
 /// The number of episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// The number of additional random episodes after a win among the first episodes. The additional episodes correct for
-/// the selection of lucky levels.
+/// The number of additional random episodes after a win in the first ones. They correct for the selection of lucky
+/// levels.
 const MORE_RANDOM_PLAYS: u32 = 48;
-/// The maximum fraction of won random episodes: one of the first [`RANDOM_PLAYS`]. The panel, with other seeds, is
-/// stricter.
+/// The maximum fraction of random episodes that may win: one of the first [`RANDOM_PLAYS`]. The panel plays with
+/// different seeds and is stricter.
 const RANDOM_WINS: f64 = 0.05;
-/// The number of random futures in a stochastic game in which the player must survive the first ticks.
+/// The number of random futures that are tried to test whether the player can survive the first ticks of a stochastic
+/// game.
 const CHANCES: u32 = 4;
-/// The divisor that derives each future's call budget from a look's calls.
+/// The divisor of a look's call budget that gives the budget for each future.
 const EARLY: u64 = 50;
 
 /// Cheap evaluations of candidates for one order, with few episodes and a small budget. Passing candidates must still
@@ -43,12 +44,12 @@ pub(super) struct Look {
     pub(super) evaluation: Evaluation,
     /// The first unmet constraint.
     pub(super) obstacle: Option<&'static str>,
-    /// `true` if a win, and therefore its measures, is known.
+    /// `true` if a win is known, along with its measures.
     pub(super) is_won: bool,
     /// The number of forward-model calls.
     pub(super) calls: u64,
-    /// The effort, in looks of typical cost. Without a win search, the effort is [`LEAST_EFFORT`]. Otherwise the effort
-    /// is one per [`super::Effort::calls`] calls of the win search, with a minimum of one.
+    /// The effort, in looks of typical cost. Without a win search, the effort is [`LEAST_EFFORT`]. Otherwise, each
+    /// [`super::Effort::calls`] calls of the win search count as one look, with a minimum of one.
     pub(super) effort: f64,
 }
 
@@ -60,7 +61,7 @@ impl Look {
     }
 }
 
-/// The effort of a look that ends at the first, cheap judges.
+/// The effort of a look that ends with the first, cheap judges.
 pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 
 /// The cost of a look so far.
@@ -78,14 +79,14 @@ impl Spent {
     }
 }
 
-/// The relative loss of objective per unit of random win rate. One win in 24 episodes costs a third.
+/// The factor by which the win rate of random play lowers the objective. One win in 24 episodes costs a third.
 const LUCK: f64 = 8.0;
-/// The number of calls per episode tick, enough for a few decisions by several players.
+/// The number of calls per episode tick. It suffices for a few decisions by several players.
 const TICK: u64 = 500;
-/// The maximum calls of a win search, as a multiple of the effort's calls.
+/// The maximum number of calls in a win search, as a multiple of the order's calls per search.
 const MOST: u64 = 4;
 
-/// Graded constraints, each with a value from 0.0 to 1.0.
+/// Constraints, each with the degree to which it is met, from 0.0 to 1.0.
 struct Constraints {
     values: [f64; CONSTRAINTS],
     met: usize,
@@ -136,7 +137,7 @@ impl<'a> Looker<'a> {
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
         let mut spent = Spent::default();
         let won = self.constrain(level, seed, &mut constraints, &mut spent);
-        // Even a single win by random keys counts against a level.
+        // Even a single win by random play counts against a level.
         let told = won.map(|(witness, luck)| {
             let told = self.aim.tell(self.case(level, &seed.into(), Some(&witness)));
             Told { objective: told.objective * (1.0 - LUCK * luck), ..told }
@@ -219,8 +220,8 @@ impl<'a> Looker<'a> {
         Case { game: self.game, level, seed, analysis: self.analysis, witness }
     }
 
-    /// Returns the number of forward-model calls for a win search. The number is larger for long episodes, because each
-    /// tick requires a decision.
+    /// Returns the number of forward-model calls for a win search. Long episodes get more calls, because each tick
+    /// requires a decision.
     fn budget(&self, random: &Finding) -> u64 {
         let calls = self.order.effort.calls;
         let longest = random.episodes.iter().map(|episode| episode.actions.len()).max().unwrap_or_default();

@@ -40,7 +40,7 @@ pub enum LevelsError {
         judged: u64,
         /// The reasons why the candidates failed.
         why: String,
-        /// The implication of the most frequent obstacle for the game or the order, if any.
+        /// Advice derived from the most frequent obstacle, if there is any.
         hint: Option<String>,
     },
     /// Not a single board could be filled.
@@ -48,7 +48,7 @@ pub enum LevelsError {
     NoBoard(String),
 }
 
-/// Returns what the most frequent rejection implies for the game or the order.
+/// Returns advice derived from the most frequent rejection, if there is any.
 fn hint(tally: &Tally) -> Option<String> {
     if tally.unbeaten > 0 && Some(&tally.unbeaten) >= tally.rejections.get(DIFFICULTY) {
         let unbeaten = tally.unbeaten;
@@ -179,8 +179,8 @@ impl Maker<'_> {
         (None, tally)
     }
 
-    /// Generates all levels in parallel and independently. Then regenerates any level that is too similar to an
-    /// earlier level.
+    /// Generates all levels in parallel, independently of each other. Then regenerates each level that is too similar
+    /// to an earlier one.
     fn make_by_number(&self, make: impl Fn(u32, &BTreeSet<Digest>) -> Attempt + Sync) -> LevelSet {
         let attempts: Vec<Attempt> = (0..self.order.count)
             .into_par_iter()
@@ -210,8 +210,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Returns `true` if no ladder player has won any of the judged levels, although the requested difficulty
-    /// requires frequent wins. The next levels are then unlikely to be easier.
+    /// Returns `true` if no ladder player has won any of the judged levels, although the requested difficulty requires
+    /// frequent wins. Further levels are then unlikely to be easier.
     pub(super) fn is_hopeless(&self, tally: &Tally) -> bool {
         let by_difficulty = tally.rejections.get(DIFFICULTY).copied().unwrap_or_default();
         let often =
@@ -224,18 +224,18 @@ impl Maker<'_> {
     }
 }
 
-/// The number of levels unwon by every ladder player after which no win is expected.
+/// The number of judged levels without a win by any ladder player after which no win is expected.
 const HOPELESS: u64 = 6;
 
 /// The number of boards to draw for an unjudged level.
 const DRAWS: u64 = 20;
-/// A reason why a candidate does not become a level of the set.
+/// The reason for rejecting a candidate that repeats an earlier level of the set.
 pub(super) const TWICE: &str = "the same level twice";
 pub(super) const NO_BOARD: &str = "no board has room";
 
 /// Generates levels without a requested difficulty, spread evenly from the easiest to the hardest target of the
-/// constructive generator. The levels form the pool that would be available without requesting a difficulty. Levels
-/// that cannot be generated are omitted. Cost: about a millisecond per level.
+/// constructive generator. The levels form the pool from which a level would come if no difficulty were requested.
+/// Levels that cannot be generated are omitted. Cost: about a millisecond per level.
 ///
 /// # Errors
 /// Returns an error if the generator does not support the game.

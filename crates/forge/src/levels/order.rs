@@ -21,10 +21,10 @@ base::named_enum! {
     }
 }
 
-/// The number of floor plans per puzzle in a search that itself improves the levels.
+/// The number of floor plans to examine per puzzle in a search that improves the levels itself.
 const PLANS_OF_ARCHIVE: usize = 40;
-/// The range of distances from a solution, as fractions of the longest distance, for a level whose difficulty will be
-/// measured.
+/// The range of a puzzle's distance from its solution, as fractions of the longest distance, for levels whose
+/// difficulty will be measured.
 const ANY_WAY: (f64, f64) = (0.05, 1.0);
 
 impl fmt::Display for Method {
@@ -51,7 +51,7 @@ pub struct LevelOrder {
     pub method: Method,
     /// The number of levels.
     pub count: u32,
-    /// The size, and the other settings of the constructive generator. If [`LevelOrder::difficulty`] is set, that value
+    /// The level size and the other settings of the constructive generator. If [`LevelOrder::difficulty`] is set, it
     /// overrides the configuration's difficulty.
     pub config: LevelConfig,
     /// The difficulty of each level, measured with the ladder of the criteria.
@@ -70,14 +70,15 @@ base::with_defaults! {
     /// The effort of a search for a single level, or for one level in an archive.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Effort {
-        /// The number of candidates to evaluate between two attempts to get the best candidate accepted.
+        /// The number of candidates to evaluate before each attempt to get the best candidate accepted.
         pub looks: u32 = 32,
         /// The number of candidates evaluated together, on all threads. Changing this number changes the generated
         /// bytes.
         pub batch: usize = 8,
         /// The number of attempts. A single level gets more attempts if most looks are cheap.
         pub rounds: u32 = 6,
-        /// The maximum number of forward-model calls per win search; up to four times this number if episodes are long.
+        /// The maximum number of forward-model calls per win search. The limit is up to four times as high if episodes
+        /// are long.
         pub calls: u64 = 100_000,
     }
 }
@@ -111,7 +112,7 @@ impl LevelOrder {
     }
 
     /// Returns a release's level criteria, with a stricter limit for random play. Random play may win at most 1 of 40
-    /// episodes, so that a second measurement with different seeds finds a win rate of 10% or less.
+    /// episodes, so that a second measurement with different seeds is likely to find a win rate of 10% or less.
     ///
     /// `readable` is omitted because it depends only on the rules.
     pub fn criteria_by_default() -> Criteria {
@@ -136,8 +137,8 @@ impl LevelOrder {
     }
 
     /// Returns the configuration of puzzles, with the number of pushable objects from the order's configuration. An
-    /// archive improves its levels one by one, so it needs few floor plans. If a difficulty is requested, the farthest
-    /// position is seldom suitable, because few of the players that measure the difficulty win such long puzzles.
+    /// archive improves each level afterwards, so it needs few floor plans. If a difficulty is requested, the position
+    /// farthest from a solution is seldom suitable, because few of the measuring players win such long puzzles.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
         let pushed =
             |stype: &SpriteType| analysis.pushables().iter().any(|pushable| pushable.stype == *stype);

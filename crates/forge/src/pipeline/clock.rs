@@ -9,12 +9,12 @@ use validators::{Cost, Criterion, CriterionSet, Effort, Judgement, Panel, Verdic
 
 /// The numbers of ticks at which games are lost. All are round numbers, as an author would choose.
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
-/// The minimum time limit, as a multiple of the longest known win.
+/// The minimum time limit, as a multiple of the length of the longest known win.
 const TIME_PER_WIN: f64 = 2.5;
-/// The minimum fraction of careless episodes that must end by the rules in a game without a time limit, averaged over
-/// the levels.
+/// The minimum fraction of careless episodes that the rules must end in a game without a time limit, averaged over the
+/// levels.
 const ENDED_PLAYS: f64 = 0.5;
-/// The entry in tallies for failed attempts to omit the time limit.
+/// The tally entry for a failed attempt to omit the time limit.
 const NO_CLOCK: &str = "no time limit";
 
 impl<'a> Trial<'a> {
@@ -45,7 +45,7 @@ impl<'a> Trial<'a> {
         self.pass_under_own_limit(later, tally)
     }
 
-    /// Takes the game through the later stages with the time limit required by its longest win.
+    /// Takes the game through the later stages with a time limit derived from its longest win.
     fn pass_under_own_limit(&mut self, later: &[Stage<Self>], tally: &mut Tally) -> Passage {
         let wins = self.found.iter().filter_map(|found| found.report.witness.as_ref());
         let longest = wins.map(|win| win.actions.len()).max().ok_or("time limit")?;
@@ -54,7 +54,8 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Takes a version of the game through the later stages with the levels already found, after judging them again.
+    /// Takes a version of the game through the later stages, after a new judgement of the levels that have already been
+    /// found.
     fn pass_with(
         &self,
         candidate: Candidate,
@@ -81,8 +82,8 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// Returns the time limit of a game whose longest known win takes `longest` ticks. The limit is a round number, and
-/// the game is lost one tick later.
+/// Returns the time limit of a game whose longest known win takes `longest` ticks. The limit is one less than a round
+/// number, because the game is lost one tick after the limit.
 pub(super) fn time_limit(longest: usize) -> u32 {
     let least = longest as f64 * TIME_PER_WIN;
     let round = TIME_LIMITS.into_iter().find(|&limit| f64::from(limit) > least);
@@ -91,7 +92,7 @@ pub(super) fn time_limit(longest: usize) -> u32 {
 
 impl Levels<'_> {
     /// Judges a level found for the game under a different time limit, by all judges except the ladder. Reuses the
-    /// search result if its win is still valid. The seeds are unchanged, so a replay ends as before.
+    /// result of the win search if that win is still valid. The seeds are unchanged, so a replay ends as before.
     fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = replayed(game, &level, found.report.witness.as_ref()?);

@@ -11,8 +11,8 @@ use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillO
 /// The number of levels to find first in a course: the first two and the last.
 const OUTLINE: usize = 3;
 
-/// The number of additional candidates for a course's first level if that level leaves no mechanic for later levels.
-/// If all of these candidates share the fault, further candidates are likely to share it too.
+/// The number of further candidates to try for a course's first level if it leaves no new mechanic for later levels. If
+/// all of them share this fault, more candidates are unlikely to help.
 const INTRODUCTIONS: u32 = 3;
 
 /// The levels found so far for a game, in the order in which they were found.
@@ -77,7 +77,7 @@ impl<'a> Begun<'a> {
         tally: &mut Tally,
     ) -> Result<Vec<FoundLevel>, Refusal> {
         let mut begun = Begun { levels, game, found: Vec::new() };
-        // Fail fast: the easiest level may be too easy, and the hardest level too hard.
+        // Start with the levels most likely to fail: the easiest may be too easy, and the hardest too hard.
         let ends = [0, levels.count - 1].into_iter().take(levels.count as usize);
         for number in ends.chain(1..levels.count.max(1) - 1) {
             let place = Place { levels, game, number, others: &begun.found };
@@ -87,7 +87,7 @@ impl<'a> Begun<'a> {
         }
         begun.found.sort_by_key(|(number, _)| *number);
         let mut found: Vec<FoundLevel> = begun.found.into_iter().map(|(_, level)| level).collect();
-        // The requested difficulty is a guess, while the result of the ladder is a measurement. A course has its own
+        // The requested difficulty is only a guess, but the ladder's result is a measurement. A course keeps its own
         // order.
         if !levels.source.is_ordered() {
             found.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
@@ -101,7 +101,7 @@ impl<'a> Begun<'a> {
     }
 
     fn ask_for_something_left(&mut self, tally: &mut Tally) -> Passage {
-        // In a short course, the level in between may introduce something new.
+        // In a short course, the middle level may introduce something new.
         if self.found.len() != 2 || !self.is_longer_than_outline() {
             return Ok(());
         }

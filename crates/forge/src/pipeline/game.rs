@@ -26,7 +26,7 @@ pub(crate) struct Trial<'a> {
 pub(crate) struct Demands<'a> {
     /// The known games from which new games must differ.
     pub(super) known: &'a [GameForm],
-    /// Returns a set's objection to a game, regardless of the game's levels.
+    /// Returns the reason why a set rejects a game whatever its levels, if there is one.
     pub(super) objection: &'a dyn Fn(&Candidate) -> Option<&'static str>,
     pub(super) least_interactions: usize,
     pub(super) least_mechanics: usize,
@@ -57,8 +57,8 @@ impl<'a> Trial<'a> {
 }
 
 impl Levels<'_> {
-    /// Builds a game from known rules: finds levels that meet the criteria individually and together. Returns `None`,
-    /// with the reason in the tally, if a stage rejects the game.
+    /// Builds a game from known rules by finding levels that meet the criteria, both individually and together. Returns
+    /// `None`, with the reason in the tally, if a stage rejects the game.
     pub fn make(&self, candidate: Candidate, tally: &mut Tally) -> Option<MadeGame> {
         let demands = Demands {
             known: &[],
@@ -88,7 +88,7 @@ pub(crate) struct GameGate<'a> {
     criteria: CheckedCriteria,
     /// The judges of all criteria.
     panel: Panel,
-    /// The cheap judges. The more expensive judges run last.
+    /// The cheap judges, which run before the more expensive ones.
     cheap: Panel,
 }
 
@@ -163,7 +163,7 @@ pub(crate) mod tests {
     use generators::levels::LevelConfig;
     use validators::{Criteria, Criterion};
 
-    /// Returns an order with two levels, and with few and weak players.
+    /// Returns an order for games with two levels, judged with few and weak players.
     pub(crate) fn order() -> GameOrder {
         let criteria = Criteria {
             ask: CriterionSet::of(&[
@@ -249,7 +249,7 @@ pub(crate) mod tests {
         assert!(made.card.levels.iter().all(|level| level.generator == "course"));
     }
 
-    /// Kernels of this kind leave the time limit to the gate.
+    /// For kernels of this kind, the gate determines the time limit.
     #[test]
     fn a_game_has_a_limit_by_its_wins_unless_it_ends_without() {
         let (mut clocks, mut others) = (0, 0);
@@ -308,7 +308,7 @@ pub(crate) mod tests {
 
     /// Returns a stochastic game with two levels, and its judges' seed.
     fn made() -> (MadeGame, SeedPath) {
-        // In deterministic games, a player that knows the win counts as skilled.
+        // In deterministic games, a player that knows the win counts as a skilled player.
         let has_chance = |made: &MadeGame| {
             let analysis = Analysis::of(&made.game);
             made.levels.iter().all(|found| !analysis.is_deterministic_in(&found.level))
@@ -361,7 +361,7 @@ pub(crate) mod tests {
         assert_eq!(tally.reasons(), "1 failed `skill`");
     }
 
-    /// Requires more drama than any game has.
+    /// Requires more drama than any game can have.
     fn ask_for_drama(criteria: &mut Criteria) {
         criteria.ask = criteria.ask.with(CriterionSet::of(&[Criterion::Drama]));
         criteria.gates.drama = 1.0;

@@ -1,4 +1,4 @@
-//! Invented games as a source of candidates: their rules, and boards that a search finds for them.
+//! Invented games as a source of candidates. The source provides the rules and the boards that a search finds for them.
 
 use super::level::LATER_SHARE;
 use super::sources::{Board, BoardSource, Boards, PlaceBrief, Rules};
@@ -23,8 +23,8 @@ const LOOK_DEMAND: u8 = 1;
 /// The number of boards in a quick look.
 const LOOKS: usize = 24;
 /// The number of boards in a quick look after which a game without a winnable board is rejected. With good rules, at
-/// least one in five compositions is winnable. More than half of all rule sets are rejected here, so a quick look is
-/// cheap rather than certain.
+/// least one in five compositions is winnable. A quick look rejects more than half of all rule sets, so it should be
+/// cheap rather than accurate.
 const HOPELESS: usize = 8;
 /// The maximum number of forward-model calls in a quick look's search for a win.
 const LOOK_SEARCH: u64 = 20_000;
@@ -38,7 +38,7 @@ pub(super) const USELESS: &str = "a mechanic does not matter";
 const LEAST_NECESSITY: f64 = 0.4;
 /// The minimum fraction of costly wrong choices, on a quick look's best board.
 const LEAST_TRAPS: f64 = 0.1;
-/// The maximum value of an unmet condition.
+/// The maximum degree to which an unmet condition can count as met.
 const NEARLY: f64 = 0.999;
 
 impl Rules for Invention {
@@ -118,7 +118,7 @@ pub(crate) struct QuickLook {
 }
 
 impl QuickLook {
-    /// Returns the reason why no board is worth a search; `None` if there is no such reason.
+    /// Returns the reason why the game is not worth a board search; `None` if there is no such reason.
     pub(crate) fn obstacle(&self) -> Option<&'static str> {
         let names = [
             "no board was won",
@@ -137,7 +137,7 @@ impl QuickLook {
         [1.0, necessity, (board.traps / LEAST_TRAPS).min(1.0), deaths]
     }
 
-    /// Returns the degree to which all conditions are met: 1.0 exactly if there is no obstacle.
+    /// Returns the degree to which all conditions are met, which is 1.0 exactly if there is no obstacle.
     pub(crate) fn feasibility(&self) -> f64 {
         let constraints = self.constraints();
         constraints.iter().sum::<f64>() / constraints.len() as f64
@@ -150,8 +150,8 @@ impl QuickLook {
 }
 
 impl InventedBoards {
-    /// Returns a brief for composing boards. Exits, and types whose idiom does not follow from the rules alone, are
-    /// given the invention's idiom.
+    /// Returns a brief for composing boards. The brief specifies the invention's idioms for exits, and for types whose
+    /// idiom does not follow from the rules alone.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
         let game = analysis.game();
         let named = self.idioms.iter().filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom)));
@@ -203,8 +203,8 @@ struct PlaceBoards<'a> {
 }
 
 impl PlaceBoards<'_> {
-    /// Returns the types to omit from a candidate's board. Introductions omit one mechanic, and each candidate omits a
-    /// different one.
+    /// Returns the types to omit from a candidate's board. Introductory levels omit the types of one mechanic, drawn at
+    /// random for each candidate.
     fn left_out(&self, candidate: &SeedPath) -> Vec<SpriteType> {
         let optional: Vec<&Vec<String>> =
             self.source.own_types.iter().filter(|own| !own.is_empty()).collect();
@@ -234,7 +234,7 @@ impl PlaceBoards<'_> {
         }
     }
 
-    /// Returns the order of first executions of interactions for each win of another level.
+    /// Returns, for each win of another level, its interactions in the order of their first executions.
     fn known(&self) -> Vec<Vec<usize>> {
         let firsts = |(_, found): &(u32, FoundLevel)| {
             let win = found.report.witness.as_ref()?;

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 const JOINT: &str = "joint use";
 
 /// The number of forward-model calls in the search for a win without an interaction or a mechanic. The board search
-/// found the known win with as many calls, so a search without success shows something.
+/// needed at most this number for the known win, so a failed search is evidence that no such win exists.
 const CALLS: u64 = 320_000;
 
 impl Trial<'_> {

@@ -9,7 +9,7 @@ use crate::tally::Tally;
 use engine::Game;
 use validators::{Cost, Criterion, CriterionSet, Judging};
 
-/// The number of course levels that may fail the ladder before the game is rejected.
+/// The maximum number of levels of a course that may fail the ladder. If more levels fail, the game is rejected.
 const MISFITS: u32 = 5;
 
 impl Trial<'_> {
@@ -37,8 +37,8 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Judges a course's levels with the player ladder. The next passing candidate for the same position replaces a
-    /// failing level.
+    /// Judges a course's levels with the player ladder. A failing level is replaced with the next passing candidate for
+    /// the same position.
     ///
     /// # Errors
     /// Returns an error if no candidate for a position passes, or if so many levels fail that the game itself is
@@ -61,7 +61,7 @@ impl Levels<'_> {
         };
         let mut levels: Vec<(u32, FoundLevel)> = (0..).zip(found).collect();
         let mut misfits = 0;
-        // Fail fast: the last level demands the most of players.
+        // Start with the level most likely to fail: the last one, which demands the most of players.
         for number in (0..self.count).rev() {
             let at = number as usize;
             while !judge(&mut levels[at].1, tally) {

@@ -13,8 +13,8 @@ use validators::{
     Verdict,
 };
 
-/// The minimum length of a later level's win, as a fraction of the length of an earlier level's win. A course must
-/// not become much shorter again.
+/// The minimum length of a later level's win, as a fraction of the length of an earlier level's win. The wins of a
+/// course must not become much shorter again.
 pub(super) const LATER_SHARE: f64 = 0.6;
 
 /// The position of a level within its game, and the levels at other positions.
@@ -33,7 +33,7 @@ pub(super) struct LevelTrial<'a> {
     /// The actions of a win known to the generator; `None` if the generator knows no win.
     pub(super) known: Option<Vec<Action>>,
     proof: Option<Proof>,
-    /// The level with its findings, after acceptance by its judges.
+    /// The level with its judges' findings, once they have accepted it.
     pub(super) found: Option<FoundLevel>,
 }
 
@@ -218,7 +218,7 @@ impl LevelTrial<'_> {
         if is_early { Err(Criterion::NotInstant.into()) } else { Ok(()) }
     }
 
-    /// Rejects a level that, judged alone, fails the gate against dead time.
+    /// Rejects a level that fails the gate against dead time when judged on its own.
     fn refuse_dead_time(&mut self, tally: &mut Tally) -> Passage {
         let Some(found) = self.found_of_course() else { return Ok(()) };
         let panel = self.place.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
@@ -254,8 +254,8 @@ impl LevelTrial<'_> {
         self.found.as_ref().filter(|_| self.is_of_course())
     }
 
-    /// Returns the gate against instant wins, if the gate applies to the level at this position. In a course with
-    /// room for an exception, the second level may be the exception.
+    /// Returns the gate against instant wins, if it applies to the level at this position. In a course that is long
+    /// enough to allow one exception, the second level is exempt.
     fn not_instant(&self) -> Option<NotInstant> {
         let Levels { criteria, count, .. } = *self.place.levels;
         let gates = &criteria.gates;
@@ -278,8 +278,8 @@ fn takes_as_long(found: &FoundLevel, earlier: &FoundLevel) -> bool {
     ticks(found) as f64 >= LATER_SHARE * ticks(earlier) as f64
 }
 
-/// Returns `true` if the win of a later level needs a mechanic that the first level's win does not need, or if no
-/// new mechanic is required.
+/// Returns `true` if the win of a later level executes a mechanic that the first level's win does not, or if the
+/// criteria do not require a new mechanic.
 pub(super) fn leaves_something(
     levels: &Levels<'_>,
     game: &Game,

@@ -1,9 +1,9 @@
-//! The stages that a candidate passes through, as data: each stage's question, its cost, and what it can reject and
-//! replace.
+//! The stages that a candidate passes through. They are defined as data: each stage's question, its cost, and what it
+//! can reject or replace.
 //!
-//! The lists below define the order in which `stage::walk` runs the stages. Each stage is in a file in this folder,
-//! with its tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list. The table
-//! in `docs/explanation/generate-games.md` must agree.
+//! The lists below define the order in which `stage::walk` runs the stages. Each stage is defined in a file of this
+//! folder, with its tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list. The
+//! table in `docs/explanation/generate-games.md` must agree.
 //!
 //! The stages do not depend on a candidate's source. `sources.rs` contains the traits for sources of rules and
 //! boards.

@@ -9,12 +9,13 @@ use crate::tally::Tally;
 /// The number of extra candidates that a failed win search counts as.
 const VAIN_SEARCH: u32 = 1;
 /// The number of extra candidates that a failed search counts as while the game has fewer than [`STAKE`] levels, so
-/// that little effort is lost. After two failed searches, one in four further searches succeeds.
+/// that a game is given up before much effort is lost. After two failed searches, only one in four further searches
+/// succeeds.
 const EARLY_VAIN_SEARCH: u32 = 5;
 const STAKE: usize = 2;
 
 impl Place<'_> {
-    /// Returns the rejection of a game without a level for this position.
+    /// Returns the reason for rejecting a game for which no level was found at this position.
     pub(super) fn refusal(&self) -> Refusal {
         Refusal::Because(format!("no level {}", self.number).into())
     }

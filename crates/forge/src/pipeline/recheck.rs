@@ -15,7 +15,7 @@ const CERTAIN: CriterionSet =
 
 /// The reason for rejecting a game that its first judges accepted by luck.
 const SECOND_JUDGES: &str = "second judges";
-/// The reason for rejecting a game that passes the gates with some seeds but not with others.
+/// The reason for rejecting a game that passes the gates with some seeds but fails them with others.
 const FURTHER_JUDGES: &str = "further judges";
 /// The reason for rejecting a game whose judges' results are not sufficient for a card.
 const NO_CARD: &str = "no card";

@@ -11,14 +11,14 @@ use validators::{
     NotRandom, Panel, Report, Validator,
 };
 
-/// The factor by which a second test increases the number of random episodes.
+/// The factor by which the second test of random play increases the number of episodes.
 const LUCK_PLAYS: u32 = 5;
-/// The factor by which the second test increases the allowed fraction of won random episodes. The panel's test uses
-/// few episodes and is therefore strict.
+/// The factor by which the second test of random play raises the maximum fraction of wins. The panel's test has few
+/// episodes, so its limit is strict.
 const LUCK_WINS: f64 = 1.6;
 
-/// The ladders that measure a level's difficulty. For each ladder, the factor applied to the criteria's number of
-/// episodes, and the minimum distance of the ease from any other label. The first ladder rejects most levels. The
+/// The ladders that measure a level's difficulty. Each entry is the factor applied to the criteria's number of
+/// episodes, and the minimum distance between the ease and any other label. The first ladder rejects most levels. The
 /// second ladder plays more episodes, to correct for the selection of lucky levels.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
 /// The minimum fraction of all ladder episodes that must be won. A rarely won level might have no win on a second
@@ -149,7 +149,7 @@ impl RequestTrial<'_> {
             let climb =
                 LadderConfig { plays: climb.plays * times, calls: climb.calls * times, ..climb.clone() };
             let ladder = climb.ladder(self.case(&self.seed.child("ladder", times).into()));
-            // A second measurement with other seeds should also give the label.
+            // A second measurement with other seeds should give the same label.
             let is_met = bears(&ladder, asked, margin) && wins(&ladder) >= BEATEN;
             let calls = ladder.rungs.iter().map(|fared| fared.rate.calls).sum();
             tally.judge(DIFFICULTY, is_met, calls);

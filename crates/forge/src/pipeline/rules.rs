@@ -12,7 +12,7 @@ use validators::novelty::{GameForm, NEAR};
 
 /// The reason for rejecting a game that is near a known game.
 pub(crate) const NEAR_KNOWN: &str = "near to a known game";
-/// The reason for rejecting a game that has too few interactions, or whose wins execute too few interactions.
+/// The reason for rejecting a game that has too few interactions, or whose wins execute too few of them.
 pub(super) const MEAGRE: &str = "meagre";
 
 impl Trial<'_> {

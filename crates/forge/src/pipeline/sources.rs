@@ -51,8 +51,8 @@ pub trait BoardSource: Sync {
     /// Returns the name used on cards.
     fn name(&self) -> &'static str;
 
-    /// Returns `true` if the levels form a course, in which each level demands more than the levels before. The
-    /// levels of a course must also fit together.
+    /// Returns `true` if the levels form a course. Each level of a course demands more than the levels before it, and
+    /// the levels must fit together.
     fn is_course(&self) -> bool {
         false
     }
@@ -111,7 +111,7 @@ pub trait Boards {
     fn generate(&self, candidate: &SeedPath) -> Result<Board, GenerateError>;
 }
 
-/// A level, with its source's knowledge about it.
+/// A level, and the source's knowledge about it.
 pub struct Board {
     /// The level on the board.
     pub level: Level,
@@ -126,12 +126,13 @@ fn layout(candidate: &SeedPath) -> Seed {
     candidate.seed().child("layout", 0)
 }
 
-/// Returns the seed for winning a candidate's puzzle: the seed of the search that the known win replaces.
+/// Returns the seed for winning a candidate's puzzle. It is the seed that the win search would have used without a
+/// known win.
 pub(super) fn seed_of_win(candidate: &SeedPath) -> SeedPath {
     systematic_seed(&Criterion::Winnable.seed(&judges_seed(candidate)))
 }
 
-/// Generates levels from the rules alone. Each position has its own difficulty.
+/// Generates levels from the rules alone. The difficulty depends on the position.
 impl BoardSource for LevelConfig {
     fn name(&self) -> &'static str {
         "constructive"
@@ -158,7 +159,7 @@ impl Boards for ConstructiveLevels<'_> {
     }
 }
 
-/// Uses a kernel's maps. Each position has a slot.
+/// Generates levels from a kernel's maps. Each position has a slot in the course.
 impl BoardSource for Course {
     fn name(&self) -> &'static str {
         "course"
@@ -199,7 +200,7 @@ impl Boards for SlotBoards<'_> {
     }
 }
 
-/// Generates pushing puzzles, lock puzzles or yards. Each position has a tier.
+/// Generates pushing puzzles, lock puzzles or yards. The tier depends on the position.
 impl BoardSource for PuzzleLevels {
     fn name(&self) -> &'static str {
         "puzzle"

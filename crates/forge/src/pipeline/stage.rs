@@ -6,7 +6,7 @@ use validators::{Criterion, CriterionSet};
 
 /// A stage for candidates of type `T`.
 pub(super) struct Stage<T> {
-    /// The name in the documentation, also used in tallies if the stage has its own judges.
+    /// The stage's name in the documentation. Tallies also use it if the stage has its own judges.
     pub(super) name: &'static str,
     /// The stage's question or task, as a phrase.
     pub(super) purpose: &'static str,
@@ -38,7 +38,7 @@ pub(crate) enum Refusal {
     Counted,
 }
 
-/// The result of a candidate's passage through a stage.
+/// The outcome of a stage for a candidate.
 pub(crate) type Passage = Result<(), Refusal>;
 
 impl From<&'static str> for Refusal {
@@ -80,7 +80,7 @@ impl<T> Stage<T> {
         Stage { name: "", purpose: "", cost: "none", criteria, reasons: &[], replaces: None, run }
     }
 
-    /// Asserts, in this crate's tests, that the stage's description lists the reason.
+    /// Asserts in tests that the stage's description lists the reason for a rejection.
     fn check(&self, refusal: &Refusal) {
         let Refusal::Because(why) = refusal else { return };
         if !cfg!(test) {

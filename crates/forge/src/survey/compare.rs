@@ -11,15 +11,16 @@ const RESAMPLES: usize = 4000;
 /// A figure's unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Unit {
-    /// A fraction of games, from 0 to 1. 100 points correspond to all games.
+    /// A fraction of games, from 0 to 1. A difference of 1 corresponds to 100 points.
     Share,
-    /// A mean of values on a natural scale of length 1. 100 points correspond to the whole scale.
+    /// A mean of values between 0 and 1. A difference of the whole range corresponds to 100 points.
     Scale,
-    /// A mean of counts. 100 points correspond to the other group's mean.
+    /// A mean of counts. A difference as large as the other group's mean corresponds to 100 points.
     Count,
 }
 
-/// A line of the comparison: its name, its unit, and its value for a game, or the reason why the game has no value.
+/// A line of the comparison: its name, its unit, and a function that returns a game's value or the reason why the game
+/// has none.
 struct Question {
     name: &'static str,
     unit: Unit,
@@ -88,13 +89,13 @@ pub struct Line {
     pub ours: Group,
     /// The second group's figures.
     pub theirs: Group,
-    /// The value of `ours` minus the value of `theirs`; `None` unless both groups have a value.
+    /// The mean of `ours` minus the mean of `theirs`; `None` unless both groups have a value.
     pub difference: Option<f64>,
     /// The 95% bootstrap interval of the difference, over the games of each group.
     pub interval: Option<[f64; 2]>,
     /// The difference in points: percent of all games, of the scale from 0 to 1, or of the other group's mean count.
     pub points: Option<f64>,
-    /// `true` if `ours` is not significantly worse: the interval includes 0 or lies above 0.
+    /// `true` if `ours` is not significantly worse, which means that the upper end of the interval is not below 0.
     pub level: Option<bool>,
 }
 

@@ -9,15 +9,15 @@ use validators::{Criteria, Criterion, PlayerResult, Report};
 /// The number of resamples per score interval.
 const RESAMPLES: usize = 1000;
 
-/// The name of the player that has found a plan. Used on levels where a plan that has won once always wins.
+/// The name of a player that has found a plan. It is used on levels where a plan that has won once always wins.
 pub const SEARCH: &str = "search";
 
 /// The advantage of the strongest player over the best player that does not look ahead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edge {
-    /// The strongest player. Among the players that look ahead, this is the player with the most wins; ties go to the
-    /// highest score. In a deterministic game, [`SEARCH`] is the strongest player if it has more wins.
+    /// The strongest player. It is the player with the most wins among those that look ahead; ties go to the highest
+    /// score. In a deterministic game, it is [`SEARCH`] if that player has more wins.
     pub strongest: String,
     /// The strongest player's number of wins, across all levels.
     pub wins: u64,
@@ -32,8 +32,8 @@ pub struct Edge {
     /// Newcombe's 95% interval of the difference.
     pub interval: [f64; 2],
     /// The mean gain in score of the ladder's strongest player over the floor player, as a fraction of the level's
-    /// score range. The two players' episodes are paired by their random seeds. `None` if scores do not differ on any
-    /// level.
+    /// score range. The two players' episodes are paired by their random seeds. `None` if no level has differing
+    /// scores.
     pub score: Option<f64>,
     /// The 95% bootstrap interval of the gain in score, over episodes.
     pub score_interval: Option<[f64; 2]>,
@@ -67,8 +67,8 @@ impl Player {
     }
 }
 
-/// Returns the players of the ladder, from weakest to strongest, and then the held-out players, with their results on
-/// all levels. Levels without a ladder are skipped.
+/// Returns the players with their results over all levels. The ladder players come first, from weakest to strongest,
+/// followed by the held-out players. Levels without a ladder are skipped.
 fn players(reports: &[Report]) -> Vec<Player> {
     let mut players: Vec<Player> = Vec::new();
     for report in reports {
@@ -102,8 +102,8 @@ fn players(reports: &[Report]) -> Vec<Player> {
 }
 
 impl Edge {
-    /// Computes the advantage from the levels' ladders, without held-out players. Returns `None` without ladders, or if
-    /// all players look ahead or none does. The players must have the same names in all reports.
+    /// Computes the advantage from the levels' ladders, without held-out players. Returns `None` if there is no ladder,
+    /// or if all players or no players look ahead. The players must have the same names in all reports.
     pub(super) fn of(
         analysis: &Analysis,
         levels: &[Level],
@@ -113,7 +113,7 @@ impl Edge {
         Edge::among(analysis, levels, reports, criteria, false)
     }
 
-    /// Computes the advantage like [`Edge::of`], but for the strongest player held out from all searches.
+    /// Computes the advantage like [`Edge::of`], but for the strongest of the players that no search has used.
     pub(crate) fn held_out(
         analysis: &Analysis,
         levels: &[Level],
@@ -174,9 +174,9 @@ fn plays_of(report: &Report) -> u64 {
     report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
 }
 
-/// Returns the rank correlation between a player's position in the ladder and its result over all levels, by wins first
-/// and then by score. The correlation is 1 if every stronger player does better, and 0 if all players do equally well.
-/// Returns `None` if no ladder played.
+/// Returns the rank correlation between the players' positions in the ladder and their results over all levels,
+/// compared by wins first and then by score. The correlation is 1 if every stronger player does better, and 0 if all
+/// players do equally well. Returns `None` if no ladder played.
 pub(super) fn ladder_order(reports: &[Report]) -> Option<f64> {
     let mut players = players(reports);
     players.retain(|player| !player.held_out);

@@ -7,20 +7,19 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::{CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel};
 
-/// A survey that judges games one by one and all in the same way.
+/// A survey that judges games one at a time and all in the same way.
 pub struct GameSurvey {
     criteria: CheckedCriteria,
     panel: Panel,
     seed: Seed,
 }
 
-/// The criteria that a survey checks. All other criteria are irrelevant to the comparison, or follow from the criteria
-/// in this set.
+/// The criteria that a survey checks. The other criteria are irrelevant to a comparison, or follow from these.
 const ASKED: CriterionSet = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
 
 impl GameSurvey {
-    /// Creates a survey. The ladder's players, the budgets and the thresholds come from `criteria`. The requested
-    /// criteria and the held-out players are not used.
+    /// Creates a survey. The ladder's players, the budgets and the thresholds come from `criteria`. The criteria's
+    /// fields `ask` and `held_out` are ignored.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.

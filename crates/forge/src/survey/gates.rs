@@ -1,4 +1,4 @@
-//! A survey of how many games pass each gate. The gates' thresholds are based on this survey.
+//! A survey of the fraction of games that pass each gate. The thresholds of the gates are based on this survey.
 
 use base::Seed;
 use engine::{Episode, Game, Level};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::{Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel, Verdict};
 
-/// A survey that puts games through the gates one by one and all in the same way.
+/// A survey that puts games through the gates one at a time and all in the same way.
 pub struct GateSurvey {
     panel: Panel,
     /// The judges for levels with a known win.
@@ -20,11 +20,11 @@ pub struct GateSurvey {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GateAnswer {
-    /// `true` if the game passes the gate; `None` if nothing could be judged.
+    /// `true` if the game passes the gate; `None` if the gate could not judge the game.
     pub passes: Option<bool>,
     /// The figure measured by the gate.
     pub figure: Option<f64>,
-    /// The details in the evidence.
+    /// The details from the evidence.
     pub seen: Vec<String>,
 }
 
@@ -38,12 +38,12 @@ pub struct GateRow {
     pub levels: usize,
     /// The number of levels for which a win was found.
     pub won: usize,
-    /// The verdicts, by gate.
+    /// The verdict of each gate.
     pub gates: BTreeMap<Criterion, GateAnswer>,
 }
 
 impl GateSurvey {
-    /// Creates a survey with the criteria's thresholds and their budget for a win.
+    /// Creates a survey with the criteria's thresholds and its budget for win searches.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.
@@ -60,8 +60,8 @@ impl GateSurvey {
         Criteria { budget: 300_000, foresight: 0.4, ..Criteria::default() }
     }
 
-    /// Returns a game's row. The row does not depend on the other games or on the number of threads. A level with a
-    /// known win is judged by that win, and any other level by a win found by a search.
+    /// Returns a game's row. The row does not depend on the other games or on the number of threads. Levels are judged
+    /// by their known win or, if none is known, by a win that a search finds.
     pub fn row(&self, name: &str, game: &Game, levels: &[(Level, Option<Episode>)]) -> GateRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let judge = |(level, win): &(Level, Option<Episode>)| {
@@ -106,8 +106,8 @@ impl GateRow {
         format!("{}: won {} of {}, {}", self.name, self.won, self.levels, answers.join(", "))
     }
 
-    /// Returns a table of game groups. For each gate and group, the table lists how many of the judged games pass the
-    /// gate, and the median of the gate's figure.
+    /// Returns a table that compares groups of games. For each gate and group, it lists how many of the judged games
+    /// pass the gate, and the median of the gate's figure.
     pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
         let columns =
             groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);

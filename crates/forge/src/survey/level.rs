@@ -9,7 +9,7 @@ use validators::{
     Measures, Panel, Report,
 };
 
-/// The maximum fraction of effortless wins at which a level does not yet count as won for nothing.
+/// The maximum win rate of effortless players at which a level does not yet count as won for nothing.
 pub(crate) const FOR_NOTHING: f64 = 0.1;
 
 /// A level and all findings about it.
@@ -19,12 +19,13 @@ pub struct SurveyedLevel {
     pub level: Level,
     /// The judges' findings.
     pub report: Report,
-    /// The level's player ladder, and the difficulty derived from it. The ladder's seeds did not guide any search.
+    /// The level's player ladder, and the difficulty derived from it. The ladder's seeds have not been used in any
+    /// search.
     pub ladder: Option<Ladder>,
     /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,
-    /// The measures of the grid alone, by name (`openness`, `cover`), each from 0 to 1. The names are the same for all
-    /// levels.
+    /// The measures of the grid alone, by name (such as `openness` or `cover`), each from 0 to 1. The names are the
+    /// same for all levels.
     pub layout: Vec<(String, f64)>,
     /// The requested difficulty; `None` if none was requested.
     pub asked: Option<Difficulty>,
@@ -63,9 +64,9 @@ pub struct LevelSurvey<'a> {
 }
 
 impl<'a> LevelSurvey<'a> {
-    /// Creates a survey of one game's levels. For the report, random keys may win a tenth of their episodes, even if
-    /// the criteria are stricter to account for selection among many candidates. The ladder is the criteria's ladder
-    /// without the held-out players, so difficulty has the same meaning as in `arcade generate levels --difficulty`.
+    /// Creates a survey of one game's levels. Random play may win a tenth of its episodes, even if the criteria set a
+    /// lower limit to account for the selection among many candidates. The ladder is the criteria's ladder without the
+    /// held-out players, so difficulty has the same meaning as in `arcade generate levels --difficulty`.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.

@@ -1,5 +1,5 @@
 //! Surveys of levels and games from any source, hand-written or generated. All are judged by the same criteria with the
-//! same budget, so that sets can be described and compared.
+//! same budget, so that sets can be compared.
 //!
 //! The reports of [`levels`](crate::levels::report) and [`games`](crate::games::report) summarise a set. [`Comparison`]
 //! compares two groups of games, as `docs/lab/side-by-side.md` explains. [`GateSurvey`] puts games through the gates of

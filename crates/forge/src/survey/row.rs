@@ -15,7 +15,7 @@ pub(super) const FORM: u32 = 3;
 
 /// The reason for a missing figure if no win was found on any level.
 pub(super) const NO_WIN: &str = "no win found";
-/// The reason for a missing figure without a level to judge.
+/// The reason for a missing figure if there is no level to judge.
 pub(super) const NO_LEVEL: &str = "no level";
 
 /// The findings about one game.
@@ -32,17 +32,17 @@ pub struct GameRow {
     pub won: u64,
     /// The number of interactions in the rules, not counting guards ([`Guards`]).
     pub rules: u64,
-    /// The number of rules in `rules` that are executed in a recorded episode.
+    /// The number of interactions counted in `rules` that are executed in a recorded episode.
     pub executed: u64,
-    /// The number of types declared with their own sprites.
+    /// The number of types that can have sprites of their own.
     pub types: u64,
-    /// The number of types in `types` that occur on the board or as a resource in a recorded episode.
+    /// The number of types counted in `types` that occur on the board or as a resource in a recorded episode.
     pub there: u64,
     /// The advantage of the strongest player over the best player that does not look ahead.
     pub edge: Option<Edge>,
-    /// The rank correlation between a player's position in the ladder and its result.
+    /// The rank correlation between the players' positions in the ladder and their results.
     pub order: Option<f64>,
-    /// The number of different interactions, not counting guards, that the wins execute in total
+    /// The number of different interactions that the wins execute in total, not counting guards
     /// ([`PlayMeasures::mechanics`]).
     pub mechanics: Option<u64>,
     /// The despair on the way to a win ([`PlayMeasures::drama`]).

@@ -14,7 +14,7 @@ pub struct SurveyedGame {
     pub game: Game,
     /// The judged levels, in order.
     pub levels: Vec<Level>,
-    /// The panel's findings about each level, and about all levels as a whole.
+    /// The panel's findings about each level, and about the levels as a whole.
     pub report: GameReport,
 }
 

@@ -1,4 +1,4 @@
-//! Tests with games of a few steps that have easily counted figures.
+//! Tests with games that are won in a few steps and have figures that are easy to count.
 
 use super::row::NO_WIN;
 use super::*;
@@ -6,8 +6,7 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::Criteria;
 
-/// Returns a game in which the player collects the gem. `extra` can add `idle` sprites and superfluous
-/// rules.
+/// Returns a game in which the player collects a gem. `extra` can add `idle` sprites and superfluous rules.
 fn game(extra: [&str; 2]) -> Game {
     let [sprites, rules] = extra;
     let source = format!(
@@ -37,7 +36,7 @@ fn survey() -> GameSurvey {
 fn a_row_tells_what_play_shows() {
     let row = row_of(&survey(), "fetch", &game(["", ""]));
     assert_eq!((row.levels, row.won), (2, 2));
-    // Rules about stepping back from walls or about the edge of the board do not count.
+    // Rules for stepping back from walls, or for the edge of the board, do not count.
     assert_eq!((row.rules, row.executed), (2, 2), "{row:?}");
     assert_eq!((row.types, row.there), (3, 3), "{row:?}");
     assert_eq!(row.mechanics, Some(1));

@@ -13,7 +13,7 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// The larger of the two distances used to estimate the unseen mass.
 const FAR: f64 = 0.4;
 
-/// A function that draws the rules of a candidate from the census, the known games, the candidate's number and attempt,
+/// A function that draws a candidate's rules, given the census, the known games, the candidate's number and attempt,
 /// and a seed.
 pub(super) type Draw<'a> = &'a (dyn Fn(&Census, &[GameForm], (u32, u32), Seed) -> Option<Sketch> + Sync);
 
@@ -26,7 +26,7 @@ pub(super) struct Chain<'a> {
     draw: Draw<'a>,
     sets: f64,
     census: Census,
-    /// All rules that passed, including rules rejected as near duplicates.
+    /// All rules that passed, including those rejected as near duplicates.
     seen: Vec<GameForm>,
     /// For each entry of `seen`, `true` if the rules became a game.
     is_game: Vec<bool>,
@@ -63,7 +63,7 @@ impl Passed {
 }
 
 impl<'a> Chain<'a> {
-    /// Creates a chain in its state before the first month. `sets` is the total number of rule sets.
+    /// Creates a chain before its first month. `sets` is the total number of rule sets.
     pub(super) fn new(
         order: &'a WellOrder,
         known: &'a [GameForm],
@@ -155,7 +155,7 @@ impl<'a> Chain<'a> {
         for attempt in 0..self.order.tries {
             let seed = seed.child("attempt", attempt.into());
             attempts.drawn += 1;
-            // Rules that fail have no other effect, so they need not be drawn.
+            // Rules that will fail have no further effect, so they need not be drawn.
             if seed.child("play", 0).sampler().unit() >= self.order.passing {
                 attempts.failed += 1;
                 continue;
@@ -223,8 +223,8 @@ struct Selection {
 }
 
 impl Selection {
-    /// Returns `true` if a candidate becomes a game. This requires free room, and no game in the month that is similar
-    /// or has the same title or cast.
+    /// Returns `true` if a candidate becomes a game. This requires room in the month, and no game of the month that is
+    /// similar or has the same title or cast.
     fn takes(&mut self, sketch: &Sketch, nearest: f64, room: u32) -> bool {
         let has_words = |other: &Sketch| other.title == sketch.title || other.cast.is_shared(&sketch.cast);
         if self.games.len() >= room as usize {

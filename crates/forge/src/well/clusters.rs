@@ -2,8 +2,8 @@
 
 use super::species::good_turing;
 
-/// Leader clusters: each game joins the first leader within a given distance. A game without such a leader leads a
-/// new cluster.
+/// Leader clusters. Each game joins the first cluster whose leader is within a given distance. If there is none, the
+/// game becomes the leader of a new cluster.
 #[derive(Debug)]
 pub(super) struct Clusters {
     within: f64,

@@ -2,7 +2,7 @@
 //!
 //! [`simulate`] draws a chain's invented games as minting does, but without boards. Every month takes the games of all
 //! earlier months into account and prefers the mechanics least used so far. `chain.rs` draws rules, `clusters.rs` and
-//! `species.rs` count repetitions, `words.rs` counts repeated words, and `table.rs` shows the months.
+//! `species.rs` count repetitions, `words.rs` counts repeated texts, and `table.rs` formats the months.
 
 mod chain;
 mod clusters;
@@ -27,7 +27,7 @@ const SUPPLY_SAMPLES: u64 = 500;
 /// The number of draws used to estimate how many rule sets are near a known game.
 const NEAR_SAMPLES: u64 = 64;
 
-/// Estimates the number of rule sets that are not near a known game, from a sample drawn as for a month that follows a
+/// Estimates the number of rule sets that are not near a known game, from a sample drawn as in a month that follows the
 /// census. Costs one or two core seconds, and a few microseconds per known game.
 pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     let sets =

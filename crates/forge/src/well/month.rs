@@ -1,4 +1,4 @@
-//! Chains of months, and the games that a month draws.
+//! Chains of months, and the games drawn in each month.
 
 use crate::games::Cast;
 use serde::Serialize;
@@ -15,8 +15,8 @@ pub struct WellOrder {
     pub candidates: f64,
     /// The maximum number of rule sets drawn for one candidate.
     pub tries: u32,
-    /// The fraction of new rule sets for which boards that pass all judges are found. The seed decides which rule sets
-    /// these are.
+    /// The assumed fraction of new rule sets for which boards are found that pass all judges. The seed determines these
+    /// rule sets.
     pub passing: f64,
 }
 
@@ -29,7 +29,7 @@ impl Default for WellOrder {
 /// The months of a chain, with the number of rule sets to draw from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Well {
-    /// The simulation's order.
+    /// The order that was simulated.
     pub order: WellOrder,
     /// The estimated number of buildable combinations of mechanics and an ending.
     pub sets: f64,
@@ -39,7 +39,7 @@ pub struct Well {
     pub months: Vec<WellMonth>,
 }
 
-/// A month in a chain. Fractions and unseen masses refer to all months up to this one.
+/// A month in a chain. Fractions and unseen masses cover all months up to and including this one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WellMonth {
     /// The month's number, from 1.
@@ -54,7 +54,8 @@ pub struct WellMonth {
     pub near: u64,
     /// The number of candidates near another candidate in the month.
     pub near_in_month: u64,
-    /// The number of candidates that share two mechanics, or one mechanic and the ending, with another candidate in the month.
+    /// The number of candidates that share two mechanics, or one mechanic and the ending, with another candidate in the
+    /// same month.
     pub same_idea: u64,
     /// The number of candidates that share the title or cast of another candidate in the month.
     pub same_words: u64,
@@ -66,10 +67,10 @@ pub struct WellMonth {
     pub yielded: f64,
     /// The distances between the new games and their nearest predecessors, including known games.
     pub nearest: Option<Nearest>,
-    /// The estimated unseen probability mass of rules (Good–Turing): the probability that the distance between the
-    /// next rules and any rules drawn so far is at least 0.3.
+    /// The estimated unseen probability mass of rules (Good–Turing): the probability that the next rules are at a
+    /// distance of at least 0.3 from all rules drawn so far.
     pub unseen_near: Option<f64>,
-    /// The estimated unseen probability mass of rules, for a distance of 0.4.
+    /// The same estimate for a distance of 0.4.
     pub unseen_far: Option<f64>,
     /// The estimated probability mass of unseen port pairs, after merging.
     pub unseen_couplings: Option<f64>,
@@ -81,7 +82,7 @@ pub struct WellMonth {
     pub top_ending: Option<Top>,
     /// The merged port pair that occurs in the most games.
     pub top_coupling: Option<Top>,
-    /// The new games' texts that were already used within the preceding year.
+    /// The texts of the new games that were already used within the preceding year.
     pub again: Again,
 }
 
@@ -111,10 +112,10 @@ pub struct Top {
 pub struct Again {
     /// The number of games with a repeated title.
     pub titles: u32,
-    /// The number of games whose type names are exactly those of another game.
+    /// The number of games that have exactly the same type names as an earlier game.
     pub casts: u32,
-    /// The number of games whose summary begins with the first sentence of another summary: the story that introduces
-    /// the rules.
+    /// The number of games whose summary repeats the first sentence of another summary. That sentence is the story that
+    /// introduces the rules.
     pub openings: u32,
     /// The number of repeated sentences in all summaries.
     pub sentences: u32,

@@ -1,4 +1,4 @@
-//! Counts of game parts, each counted once per game: the unseen mass, and the most frequent part.
+//! Counts of game parts, where each game counts a part once. They give the unseen mass and the most frequent part.
 
 use super::month::Top;
 use std::collections::BTreeMap;
@@ -22,7 +22,8 @@ impl Species {
         good_turing(self.counts.values().copied())
     }
 
-    /// Returns the part that occurs in the most games, as a fraction of `games`. Ties go to the first part by name.
+    /// Returns the part that occurs in the most games, with its fraction of `games`. Ties go to the name that comes
+    /// first alphabetically.
     pub(super) fn top(&self, games: u32) -> Option<Top> {
         let most = self.counts.values().max()?;
         let (name, count) = self.counts.iter().find(|(_, count)| *count == most)?;
@@ -30,9 +31,9 @@ impl Species {
     }
 }
 
-/// Returns the fraction of counts that are 1, which estimates the probability that the next observation is new (I. J.
-/// Good, "The population frequencies of species and the estimation of population parameters", Biometrika 40, 1953).
-/// Returns `None` if nothing was observed.
+/// Returns the number of counts that are 1, divided by the sum of all counts. This quotient estimates the probability
+/// that the next observation is new (I. J. Good, "The population frequencies of species and the estimation of
+/// population parameters", Biometrika 40, 1953). Returns `None` if nothing was observed.
 pub(super) fn good_turing(counts: impl Iterator<Item = u64>) -> Option<f64> {
     let (once, all) =
         counts.fold((0u64, 0u64), |(once, all), count| (once + u64::from(count == 1), all + count));

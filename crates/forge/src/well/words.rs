@@ -4,7 +4,7 @@ use super::month::{Again, Sketch};
 use crate::games::Cast;
 use std::collections::BTreeMap;
 
-/// The number of months during which no text should be repeated.
+/// The number of months within which no text should be repeated.
 const YEAR: u32 = 12;
 
 /// The last month in which each title, cast and sentence was used.

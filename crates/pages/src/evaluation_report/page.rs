@@ -16,7 +16,7 @@ const TEMPLATE: &str = include_str!("page.html");
 const PARTS: [(&str, &str); 2] =
     [("page.css", include_str!("page.css")), ("replay.js", include_str!("replay.js"))];
 
-/// The approximate page size, in bytes. Replays may use the space that the plots leave.
+/// The approximate size of the page, in bytes. Replays may use the space that remains after the plots.
 const BYTES: usize = 12_000_000;
 
 #[derive(Serialize)]
@@ -34,7 +34,7 @@ struct Page<'a> {
     /// The style rules that show the heat map selected by the reader.
     tab_rules: String,
     replays: Option<Replays>,
-    /// The nonce of the page's script, which prevents all other scripts from running. It is derived from the
+    /// The nonce of the page's script, which prevents all other scripts from running. The nonce is derived from the
     /// page's entire content, so the content cannot contain it.
     nonce: String,
 }

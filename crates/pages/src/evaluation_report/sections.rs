@@ -23,8 +23,7 @@ impl Section {
         Section { id, title, note: note.into(), ..Section::default() }
     }
 
-    /// Returns the size of the section's heat maps, in bytes. Heat maps account for by far the largest part
-    /// of the page.
+    /// Returns the size of the section's heat maps, in bytes. Heat maps take up by far the largest part of the page.
     pub(super) fn bytes(&self) -> usize {
         self.heats.as_ref().map_or(0, Heats::bytes)
     }

@@ -25,7 +25,7 @@ pub(crate) struct Fact {
 }
 
 impl Section {
-    /// Converts a report section to a page section. Quantiles of several samples get a table of their own.
+    /// Converts a report section to a page section. Quantiles of several samples get a separate table.
     pub(crate) fn of(section: &report::Section) -> Section {
         let columns = ["", "least", "¼", "median", "¾", "most", "of"];
         let mut quantiles = Table::new("quantiles", "", "", &columns);

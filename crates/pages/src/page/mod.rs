@@ -27,7 +27,7 @@ pub(crate) struct Figure {
     png: String,
     size: [u32; 2],
     head: String,
-    /// A text that is always empty. The field is kept because the page's nonce is computed over it.
+    /// An empty text. The field is kept because the page's nonce is computed over it.
     line: &'static str,
 }
 

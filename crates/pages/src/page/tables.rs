@@ -17,8 +17,7 @@ pub(crate) struct Shown {
     pub(crate) rows: Vec<Row>,
     /// A phrase stating the number of omitted rows. Empty if no rows are omitted.
     more: String,
-    /// `true` if each row is shown as a list of cells on a narrow page. This layout suits tables with long
-    /// texts.
+    /// `true` if a narrow page shows each row as a list of cells. This layout suits tables with long texts.
     stack: bool,
 }
 
@@ -32,7 +31,7 @@ pub(crate) struct Column {
 #[derive(Serialize)]
 pub(crate) struct Row {
     pub(crate) cells: Vec<String>,
-    /// `true` if the row is displayed less prominently than the others.
+    /// `true` if the row is less prominent than the others.
     pub(crate) mark: bool,
 }
 

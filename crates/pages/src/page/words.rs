@@ -1,4 +1,4 @@
-//! Formats figures as text.
+//! The formatting of figures as text.
 
 use itertools::Itertools;
 use report::TableCell;

@@ -63,8 +63,8 @@ pub fn game_report(
     files(&report.set, &showcase)
 }
 
-/// Draws the judges' costs, largest first. Each cost is split into three parts: accepted levels, rejected
-/// levels, and levels whose game was rejected.
+/// Draws the judges' costs, largest first. Each cost is split into three parts: levels that were accepted, levels
+/// that were rejected, and levels whose game was rejected.
 fn costs(cost: &Tally) -> Option<(String, String)> {
     let mut judges: Vec<(&String, &JudgeCost)> =
         cost.judges.iter().filter(|(_, cost)| cost.calls() > 0).collect();
@@ -86,8 +86,8 @@ fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, PageError> {
     picture(&looks, &state, &Style::bare(cell(level, SIDE, 40))).map(Some).map_err(failed)
 }
 
-/// Returns the level with a known win closest to the middle of the game, and its state halfway through that
-/// win. If there are no known wins, returns the middle level in its initial state.
+/// Returns the level, among those with a known win, that is closest to the middle of the game, and its state halfway
+/// through that win. If there are no known wins, returns the middle level in its initial state.
 fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     let SurveyedGame { game, levels, report, .. } = surveyed;
     let half = levels.len() / 2;

@@ -25,7 +25,7 @@ struct Showcase<'a> {
     /// The heading above the images, and a note on the images.
     items: [String; 2],
     pictures: Vec<Shot>,
-    /// The images of the game's own levels.
+    /// The images of the levels that the game already had.
     examples: Vec<Shot>,
     /// The expressive range plots as SVG, each with its caption.
     ranges: Vec<(String, String)>,
@@ -38,8 +38,8 @@ struct Showcase<'a> {
     sheet: Sheet,
 }
 
-/// A contact sheet: the images with their captions, the number of images per row, and the side length in
-/// pixels of the square that an image must fit.
+/// A contact sheet. It consists of the images with their captions, the number of images per row, and the side length,
+/// in pixels, of the square that each image must fit.
 struct Sheet(Vec<(Picture, String)>, usize, u32);
 
 /// An image of a level or a game.
@@ -47,7 +47,7 @@ struct Sheet(Vec<(Picture, String)>, usize, u32);
 struct Shot {
     figure: Option<Figure>,
     head: String,
-    /// A description of the way to win the game.
+    /// A description of how to win the game.
     goal: String,
     line: String,
     /// The difficulty labels of a game's levels, each with its class and text.

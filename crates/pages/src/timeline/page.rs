@@ -152,8 +152,8 @@ fn series(months: &[String], player: &TimelinePlayer, class: &str, whiskers: boo
     MonthSeries { name: player.ability.player.clone(), class: class.to_owned(), points, whiskers }
 }
 
-/// Returns the range of the ability axis. It includes all abilities whose intervals have two ends, and each
-/// interval up to two logits on either side of its ability.
+/// Returns the range of the ability axis. It includes all abilities whose intervals have two ends, and the part of
+/// each interval that is within two logits of its ability.
 fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     let months = players.iter().flat_map(|player| &player.ability.months);
     let spans = months.filter(|month| month.is_bounded == [true, true]).filter_map(|month| month.ability);
@@ -162,7 +162,7 @@ fn range(players: &[&TimelinePlayer]) -> [f64; 2] {
     whole(&ends)
 }
 
-/// Returns the smallest range that has integer logits at its ends and includes 0 and all given ranges.
+/// Returns the smallest range that has integer logits at its ends, and includes −0.5 to 0.5 and all given ranges.
 fn whole(ends: &[[f64; 2]]) -> [f64; 2] {
     let least = ends.iter().fold(0.0_f64, |least, [low, _]| least.min(*low));
     let most = ends.iter().fold(0.0_f64, |most, [_, high]| most.max(*high));

@@ -1,4 +1,4 @@
-//! Describes the timeline in sentences.
+//! Descriptions of the timeline in sentences.
 
 use crate::page::words::{self, many};
 use evaluation::scale::{Estimate, Span, Timeline, TimelineMonth, TimelinePlayer};

@@ -1,9 +1,8 @@
 //! Episodes as animated GIFs.
 //!
-//! All frames share one palette, which is created before the first frame is written. The palette contains the
-//! exact colours of all tiles, followed by the blended colours of smooth edges. Among these, blends without a
-//! similar colour in the palette come first, ordered by frequency. A frame contains only the changed
-//! rectangle.
+//! All frames share one palette, which is created before the first frame is written. The palette contains the exact
+//! colours of the tiles, followed by the blended colours of smooth edges. Blends that no palette entry resembles come
+//! first, ordered by frequency. A frame contains only the rectangle that has changed.
 
 use super::pixels::{Image, Painter};
 use crate::caption;
@@ -20,8 +19,8 @@ const UNCHANGED: u8 = 255;
 /// The duration of the last frame, as a multiple of the other frames' duration.
 const LAST: u16 = 12;
 
-/// The minimum squared distance between a blend and every palette entry for the blend to be added, in
-/// successive passes.
+/// The palette is completed in successive passes over the blends. Each number is the squared distance from every
+/// palette entry that a blend must exceed to be added in that pass.
 const APART: [u32; 3] = [1200, 300, 0];
 
 /// An encoder that writes equally sized images as the frames of an endlessly repeating GIF.
@@ -113,8 +112,7 @@ impl Animation {
         Ok(self.encoder.into_inner()?)
     }
 
-    /// Returns the palette index of each pixel. Looks up only the changed pixels, because most pixels do not
-    /// change.
+    /// Returns the palette index of each pixel. Only changed pixels are looked up, because most pixels do not change.
     fn indices(&mut self, image: &Image) -> Vec<u8> {
         let Animation { palette, nearest, before, shown, .. } = self;
         let mut last = None;

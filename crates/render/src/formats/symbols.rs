@@ -1,5 +1,5 @@
-//! The characters that represent a game's sprite types on boards as text. They are ASCII as long as unused
-//! ASCII characters remain.
+//! The characters that represent a game's sprite types on boards in text form. They are ASCII as long as there are
+//! unused ASCII characters.
 
 use crate::looks::glyph::Glyph;
 use crate::looks::look::Looks;
@@ -12,13 +12,13 @@ pub struct Symbols(Vec<char>);
 /// The character of an empty cell, or of a cell that contains only floor.
 pub const EMPTY: char = '.';
 
-/// The spare characters, for types whose level character and name letters are all taken. After them come
-/// letters of other alphabets, so that no two types ever share a character.
+/// The spare characters, for types whose level character and name letters are all taken. If these run out, letters
+/// from other alphabets follow, so that no two types ever share a character.
 const SPARE: &str =
     "+*%&$=~^?!:;|/ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@<>()[]{}-_,`'\"\\";
 
 impl Symbols {
-    /// Chooses each type's character: the first available character in this list:
+    /// Chooses a character for each type. It is the first character in this list that is still available:
     ///
     /// 1. The level character that places the type on top of floor alone.
     /// 2. A letter in the type's name.

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 ///
 /// - `#` if the figure fills its cell.
 /// - `=` if walls can have this figure.
-/// - `!` if the figure looks dangerous by itself.
+/// - `!` if the figure looks dangerous without any additions.
 /// - `>` if the figure turns with the sprite.
 ///
 /// A name that starts with `+` belongs to a mark, which is drawn over a figure to show its state.
@@ -157,8 +157,8 @@ impl Form {
         }
     }
 
-    /// Returns `true` if the tile fills its cell, so that neighbouring tiles join, and other sprites in the cell are drawn over
-    /// it.
+    /// Returns `true` if the tile fills its cell. Adjacent tiles of this kind join, and other sprites in the cell are
+    /// drawn over them.
     pub(crate) fn is_ground(self) -> bool {
         match self {
             Form::Glyph(glyph) => glyph.is_ground(),
@@ -212,7 +212,7 @@ impl<'a> Hint<'a> {
         use Glyph as G;
         let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
         let hint = Hint { role: None, adjective: None, noun: name };
-        // No held thing has a face, and anything dug away is ground.
+        // Items that the avatar holds have no face, and types that are dug away are ground.
         let form = hint.form(glyph);
         let is_apt = match glyph {
             G::Token | G::Key => !form.has_face(),
@@ -243,8 +243,8 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the figure for the type's state. A prize keeps its own figure and gets a mark instead, because
-    /// a fallen prize does not look like a fallen bridge. The same applies to open objects other than doors.
+    /// Returns the figure for the type's state. A prize keeps its own figure and gets a mark instead, because a
+    /// fallen prize does not look like a fallen bridge. Open objects other than doors are treated in the same way.
     fn state(self) -> Option<u16> {
         let is_door = || noun(self.noun).is_none_or(|at| DOORS.contains(&TABLE[usize::from(at)].name));
         let adjective = self.adjective.filter(|_| self.role != Some("prize"))?;
@@ -281,8 +281,8 @@ fn named(sign: &str, word: &str) -> Option<u16> {
     WORDS.get(format!("{sign}{}", word.to_lowercase()).as_str()).copied()
 }
 
-/// Returns the table entry for a noun in camel case: the entry for the whole noun, for its last word, or for
-/// the longest suffix of that word that is in the table.
+/// Returns the table entry for a noun in camel case. Tries the whole noun, then its last word, and then the longest
+/// suffix of that word that is in the table.
 fn noun(noun: &str) -> Option<u16> {
     let noun = noun.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == '_');
     let last = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or(0);
@@ -295,7 +295,7 @@ fn noun(noun: &str) -> Option<u16> {
     })
 }
 
-/// Parses a line in the table. The table's correctness is checked by a test.
+/// Parses a line of the table. A test checks that the table is correct.
 fn parsed(line: &'static str) -> Figure {
     let fields: Vec<&str> = line.splitn(3, '|').map(str::trim).collect();
     let &[head, words, drawing] = &fields[..] else { unreachable!("`{line}` has three fields") };
@@ -344,7 +344,8 @@ fn part(text: &str) -> Vec<Part> {
     mirror.into_iter().chain([Part::Outline(outline, tint, paint)]).collect()
 }
 
-/// Parses an outline: a circle, ellipse, rectangle, rounded rectangle, star, polygon, line, or an open or closed Bézier curve.
+/// Parses an outline: a circle, ellipse, rectangle, rounded rectangle, star, polygon, line, or an open or closed
+/// Bézier curve.
 fn outline(form: &str, numbers: &[f32]) -> Outline {
     let points = || numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>();
     match (form, numbers) {

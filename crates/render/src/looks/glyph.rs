@@ -97,8 +97,8 @@ glyphs! {
 }
 
 impl Glyph {
-    /// Chooses the glyph of a sprite type: by its role first, then by its movement and its purpose. A type
-    /// gets no star if the game is always lost before the type can win it.
+    /// Chooses the glyph of a sprite type, first by its role, and then by its movement and its purpose. A type gets
+    /// no star if the game is always lost before the type can win it.
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
         let glyph = Glyph::by_role(analysis, stype);
         let plain = match glyph {
@@ -196,8 +196,8 @@ impl Glyph {
         )
     }
 
-    /// Returns `true` if the tile fills its cell, so that neighbouring tiles join, and other sprites in the cell are drawn over
-    /// it.
+    /// Returns `true` if the tile fills its cell. Adjacent tiles of this kind join, and other sprites in the cell are
+    /// drawn over them.
     pub(crate) fn is_ground(self) -> bool {
         use Glyph as G;
         matches!(self, G::Wall | G::Breakable | G::Soil | G::Mire | G::Conveyor | G::Spring | G::Floor)
@@ -214,8 +214,8 @@ fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).makes.is_empty() && analysis.game().sprite_types().any(drops)
 }
 
-/// Returns `true` if sprites of the type stay when touched, and several level characters place something over
-/// them. Such a type is the ground in part of the board, not an object on it.
+/// Returns `true` if sprites of the type stay when touched, and several level characters place something on top of
+/// them. Such a type is not an object, but the ground in part of the board.
 fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());
@@ -257,8 +257,8 @@ pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<Sp
     })
 }
 
-/// Returns the glyph for a type that gives a key: a button if touching the type is enough, or coins if the
-/// avatar can hold many.
+/// Returns the glyph for a type that gives a key. It is a button if touching the type is enough, coins if the avatar
+/// can hold many, and a key otherwise.
 fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     let many = |resource: SpriteType| {
         analysis.resources().iter().any(|known| known.stype == resource && known.limit > 2)

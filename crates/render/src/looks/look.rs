@@ -21,7 +21,7 @@ const MAX_PIPS: u8 = 4;
 pub struct Look {
     /// The glyph according to the rules, which determines the type's meaning in legends.
     pub glyph: Glyph,
-    /// The shape drawn: a figure if the game specifies an image, or else the glyph.
+    /// The shape that is drawn: a figure if the game specifies an image, and the glyph otherwise.
     pub form: Form,
     /// The mark for the type's state, as an index into the table of figures.
     pub(crate) mark: Option<u16>,
@@ -179,8 +179,7 @@ impl Looks {
         self.floor
     }
 
-    /// Returns a sign's direction according to the rules, although the sign's sprites may be turned during
-    /// play.
+    /// Returns the direction that a sign has according to the rules. The sign's sprites may turn during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }

@@ -9,8 +9,8 @@ use engine::{Analysis, Direction, SpriteType};
 /// The note on a type that does nothing to the avatar.
 const HARMLESS: &str = "harmless";
 
-/// Describes how a certain number of the type's sprites ends the game, if it can: `2 win`, `one, and you
-/// lose`. If one number wins and another loses, both are stated.
+/// Describes the number of the type's sprites that ends the game, if there is one: `2 win`, `one, and you lose`. If
+/// one number wins and another loses, both are stated.
 fn ending(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut endings: Vec<(bool, String)> = Vec::new();
     for (at, goal) in analysis.goals().iter().enumerate() {
@@ -83,9 +83,9 @@ fn is_resource(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.facts(stype).is_resource
 }
 
-/// Describes how a motionless type affects other sprites that reach it: it removes sprites that must
-/// disappear for the win, or changes all sprites of a type. Rules about sprites that neither move nor are
-/// shot are omitted, because such sprites cannot reach the type.
+/// Describes how a motionless type affects other sprites that reach it. It may remove sprites that must disappear for
+/// the win, or change all sprites of a type. Rules about sprites that neither move nor are shot are omitted, because
+/// such sprites cannot reach the type.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let game = analysis.game();
     let brought = |taken: &&SpriteType| {
@@ -367,8 +367,8 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
         .unwrap_or_else(|| HARMLESS.to_owned())
 }
 
-/// Describes the harm that a moving type does other than by touch: to things that matter, or with the sprites
-/// that it makes. An enemy may also take things whose use is unknown.
+/// Describes the harm that a moving type causes other than by touching the avatar. Such a type harms things that
+/// matter, or makes sprites that do harm. An enemy may also take things whose use is unknown.
 fn mischief(analysis: &Analysis, stype: SpriteType, is_enemy: bool) -> Option<String> {
     let spoilt = remarks::spoilt_by(analysis, stype);
     let matters = |other: &SpriteType| {

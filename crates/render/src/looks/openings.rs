@@ -1,4 +1,4 @@
-//! Changes of all sprites of a type: what opens a type, and the state that a type had before.
+//! Changes that affect all sprites of a type at once, and the earlier states of types.
 
 use super::glyph::is_avatar;
 use super::remarks;
@@ -74,7 +74,8 @@ pub(super) fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool
     analysis.encounters().iter().any(|encounter| encounter.does(changes))
 }
 
-/// Returns the type of which `stype` is a later state. A type that levels place is not only a later state.
+/// Returns the type of which `stype` is a later state. Returns `None` if levels place `stype` directly, because it is
+/// then not only a later state.
 pub(super) fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     let possible = |from: SpriteType| analysis.facts(from).possible && !is_avatar(analysis, from);
     let change = |encounter: &Encounter| {

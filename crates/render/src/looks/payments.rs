@@ -6,13 +6,13 @@ use super::wins::{self, Terms, counted};
 use engine::analysis::{EffectSummary, Encounter, Harm, Key, Lock, Motion, Precondition, Side};
 use engine::{Analysis, SpriteType};
 
-/// The outcome of a payment that removes the sprite where it is made.
+/// The outcome of a payment that removes the sprite to which it is made.
 const REMOVES: &str = "removes it";
 
 /// The maximum number of uses in a note.
 const USES: usize = 2;
 
-/// Returns the resources that a type is or gives.
+/// Returns the resources that a type gives, and the type itself if it is a resource.
 fn resources(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let is_it = |resource: &&engine::analysis::Resource| {
         resource.stype == stype || resource.givers.iter().any(|(giver, _)| *giver == stype)
@@ -55,8 +55,8 @@ fn can_matter(analysis: &Analysis, lock: &Lock) -> bool {
     (is_goal || lock.guards) && !is_lost
 }
 
-/// Returns the types for which a key-giving type is the only means: a goal that it opens, or something that
-/// bars the way.
+/// Returns the types for which a key-giving type is the only means. Such a type is a goal that the key opens, or
+/// something that bars the way.
 pub(super) fn needed_for(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let needed = |lock: &&Lock| {
         (lock.vanishes || matches!(lock.key, Key::Avatar(_)))
@@ -78,7 +78,7 @@ fn protects_from(analysis: &Analysis, resource: SpriteType) -> Vec<SpriteType> {
     analysis.game().sprite_types().filter(is_safe).collect()
 }
 
-/// A use of a resource at sprites of a type.
+/// A use of a resource when touching sprites of a type.
 struct Use {
     at: SpriteType,
     spent: bool,
@@ -188,7 +188,7 @@ fn told(analysis: &Analysis, uses: &[Use]) -> Option<String> {
     })
 }
 
-/// Describes what a type that the avatar collects is good for: `needed for door`, `ammunition for dart`,
+/// Describes the uses of a type that the avatar collects: `needed for door`, `ammunition for dart`,
 /// `spent at gong: makes leopard`.
 pub(super) fn purposes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let needed = needed_for(analysis, stype);
@@ -223,7 +223,7 @@ pub(super) fn purposes(analysis: &Analysis, stype: SpriteType) -> Option<String>
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// Describes what a resource does at a type: `key here makes leopard`, `takes your coin`.
+/// Describes the effect of a resource at a type: `key here makes leopard`, `takes your coin`.
 pub(super) fn paid_here(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let effect = |(encounter, own): (&Encounter, Side)| {
         let Precondition::Holds(side, resource, amount) = encounter.precondition else { return None };

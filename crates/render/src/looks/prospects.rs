@@ -118,7 +118,7 @@ fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
 }
 
 /// Returns the names of the types that a termination counts, as written in the termination. A name such as
-/// `angryPirate`, which only tells the state of another counted type, is left out.
+/// `angryPirate` is omitted if it only denotes a state of another counted type.
 fn names(game: &Game, goal: &Goal) -> String {
     let line = &game.description().terminations[goal.line];
     let given = line.params.iter().filter(|param| param.key.text.starts_with("stype"));

@@ -1,4 +1,4 @@
-//! Notes for legends: a type's harm, what removes its sprites, and what they are needed for.
+//! Notes for legends: the harm that a type does, the means of removing its sprites, and the purposes of its sprites.
 
 use super::glyph::is_avatar;
 use super::payments;
@@ -108,8 +108,8 @@ fn appearing(analysis: &Analysis) -> BTreeSet<SpriteType> {
     found
 }
 
-/// Returns the types from [`removers`] whose sprites can come into contact with a sprite of `stype`: sprites
-/// on at least one side move, are pushed or shot, or appear during play.
+/// Returns the types from [`removers`] whose sprites can come into contact with a sprite of `stype`. The sprites of
+/// at least one of the two types must move, be pushed or shot, or appear during play.
 pub(super) fn reachable_removers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let appearing = appearing(analysis);
     let comes = |stype: SpriteType| {
@@ -125,8 +125,8 @@ pub(super) fn is_passable(analysis: &Analysis, stype: SpriteType) -> bool {
     analysis.avatars().iter().all(|avatar| analysis.touch(avatar.stype, stype).lets_pass())
 }
 
-/// Returns the types that clear sprites of `stype` out of the avatar's way on contact, by removing them or
-/// turning them into something that the avatar can pass.
+/// Returns the types that clear sprites of `stype` out of the avatar's way on contact. They remove these sprites, or
+/// turn them into something that the avatar can pass.
 pub(super) fn clearers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let clears = |encounter: &Encounter, own: Side| {
         encounter.does(|effect| match effect {
@@ -274,7 +274,7 @@ fn is_lost(analysis: &Analysis, stype: SpriteType, sink: &Sink) -> bool {
     !wins && (is_spoilt || is_gone || is_useless || is_in_vain(analysis, sink.partner, stype))
 }
 
-/// Describes the motionless types that a pushed sprite changes, fills or opens, or that merely use it up:
+/// Describes the motionless types that a pushed sprite changes, fills or opens, or that use up the pushed sprite:
 /// `push it onto drain`, `can be pushed, lost at hole`.
 pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (lost, good): (Vec<&Sink>, Vec<&Sink>) =

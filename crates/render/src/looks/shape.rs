@@ -1,15 +1,15 @@
 //! The vector shapes of tiles: the common input of both back-ends.
 //!
-//! A tile is a unit square with x to the right and y down, both from 0 to 1. Nothing is transparent, so an
-//! image needs few colours and looks the same in any layering.
+//! A tile is a unit square with x to the right and y down, both from 0 to 1. Nothing is transparent, so an image
+//! needs few colours, and looks the same however its tiles are layered.
 
 use super::colour::Colour;
 
 /// A point in the unit square.
 pub type Point = [f32; 2];
 
-/// The distance of the control points at which a cubic Bézier curve approximates a quarter circle. This is
-/// the usual approximation, with an error of at most 0.03%.
+/// The distance of the control points at which a cubic Bézier curve approximates a quarter circle. This is the
+/// customary approximation, with an error of at most 0.03%.
 const QUARTER: f32 = 0.552_284_8;
 
 /// A step of an outline.
@@ -119,8 +119,8 @@ impl Outline {
         ])
     }
 
-    /// Returns a star or a similar round zigzag: `points` tips at distance `outer` from the centre, and notches at distance
-    /// `inner`. One tip is at the top.
+    /// Returns a star or a similar round zigzag, with `points` tips at distance `outer` from the centre, and notches
+    /// at distance `inner`. One tip is at the top.
     pub(crate) fn star(x: f32, y: f32, points: u16, outer: f32, inner: f32) -> Outline {
         let corner = |at: u16| {
             let turn = std::f32::consts::PI * f32::from(at) / f32::from(points);

@@ -1,12 +1,12 @@
-//! The effects of the avatar's touch of a sprite: the things that the touch gives, makes, opens and changes.
+//! The effects of touching a sprite: the things that the avatar's touch gives, makes, opens and changes.
 
 use super::glyph::changes_speed;
 use super::{remarks, wins};
 use engine::analysis::{EffectSummary, Precondition, Side};
 use engine::{Analysis, SpriteType};
 
-/// Returns the types that a type's sprites open, and the types that use up the resource that the type is or
-/// gives.
+/// Returns the types that a type's sprites open, and the types that use up the type's resource. That resource is the
+/// type itself, or one that it gives.
 fn uses(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let gives = |givers: &[(SpriteType, i32)]| givers.iter().any(|(giver, _)| *giver == stype);
     let locks = analysis.locks().iter().filter(|lock| gives(&lock.givers)).map(|lock| lock.stype);

@@ -1,5 +1,5 @@
-//! The parts of the rules that decide wins and losses: terminations that can win, and meetings that lead to a
-//! win. Only the first [`MAX_GOALS`] terminations count, which bounds the cost.
+//! The parts of the rules that decide wins and losses: terminations that can win, and encounters that lead to a win.
+//! Only the first [`MAX_GOALS`] terminations are considered, which bounds the cost.
 
 use super::glyph::is_avatar;
 use engine::analysis::{
@@ -90,8 +90,8 @@ fn limit(condition: &Condition) -> Option<i32> {
     }
 }
 
-/// Returns `true` if a termination with the opposite result always ends the game before the termination at
-/// index `at` can.
+/// Returns `true` if a termination with the opposite result always ends the game before the termination at index `at`
+/// can end it.
 fn is_beaten(analysis: &Analysis, at: usize) -> bool {
     let goals = analysis.goals();
     let (own, wins) = (&goals[at].condition, goals[at].win);
@@ -142,8 +142,8 @@ pub(super) fn is_to_come(analysis: &Analysis, stype: SpriteType) -> bool {
     winning(analysis, stype).any(|goal| !wants_few(&goal.condition))
 }
 
-/// Returns `true` if the type, or what its touch brings, counts towards a termination that wins or may win.
-/// The termination must not always be preceded by a loss.
+/// Returns `true` if the type, or a type that touching it makes or changes, counts towards a termination that wins or
+/// may win. A termination that is always preceded by a loss does not qualify.
 pub(super) fn may_win(analysis: &Analysis, stype: SpriteType) -> bool {
     let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let brought: Vec<SpriteType> =
@@ -280,8 +280,7 @@ fn by_count(analysis: &Analysis, encounter: &Encounter) -> Option<Terms> {
     }
 }
 
-/// Returns `true` if a transformation that depends on a number of sprites loses the game only if that number
-/// is wrong.
+/// Returns `true` if a transformation that depends on a number of sprites loses the game only if the number is wrong.
 fn is_safe_by_count(analysis: &Analysis, encounter: &Encounter) -> bool {
     let line = &analysis.game().description().interactions[encounter.line];
     let prevent = &analysis.aims().prevent;
@@ -293,8 +292,7 @@ fn is_safe_by_count(analysis: &Analysis, encounter: &Encounter) -> bool {
     line.effect.text == "transformIfCount" && is_bad("estype") && !is_bad("stype")
 }
 
-/// Returns the condition under which the avatar's touch of a sprite contributes to a win, or `None` if no
-/// touch does.
+/// Returns the condition under which touching a sprite contributes to a win, or `None` if no touch does.
 pub(super) fn by_touch(analysis: &Analysis, avatar: SpriteType, stype: SpriteType) -> Option<Terms> {
     if is_in_vain(analysis, stype, avatar) {
         return None;
@@ -333,7 +331,7 @@ pub(super) fn by_touch(analysis: &Analysis, avatar: SpriteType, stype: SpriteTyp
     (!terms.is_empty()).then(|| terms.swap_remove(best.unwrap_or(0)))
 }
 
-/// Returns the avatar types whose touch of a sprite contributes to a win, with the condition if it is the
+/// Returns the avatar types that contribute to a win by touching a sprite. Also returns the condition, if it is the
 /// same for all of them.
 pub(super) fn able(analysis: &Analysis, stype: SpriteType) -> Option<(Vec<SpriteType>, Terms)> {
     let avatars = analysis.avatars().iter().map(|avatar| avatar.stype);

@@ -22,10 +22,11 @@ pub struct ReleaseCard {
     pub levels: u64,
     /// The number of games from generators.
     pub new_games: u64,
-    /// The requested and achieved figures. Difficulties are counted in levels, as measured during selection,
-    /// and may deviate by one level. Quotas are counted in games.
+    /// The requested and achieved counts. Difficulties count levels as measured during selection, and may be off by
+    /// one level. Quotas count games.
     pub planned: Vec<Bin>,
-    /// The number of levels of each difficulty according to the cards' ladders, if difficulty was measured.
+    /// The number of levels of each difficulty, as measured by the ladders on the games' cards; empty if difficulty
+    /// was not measured.
     pub difficulty: BTreeMap<String, u64>,
     /// The number of levels of each tier, if tiers were measured.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -34,7 +35,7 @@ pub struct ReleaseCard {
     pub goals: BTreeMap<String, u64>,
     /// The number of games with each avatar.
     pub avatars: BTreeMap<String, u64>,
-    /// The number of games from each generator, and from `corpus`.
+    /// The number of games per origin, which is the name of a generator or `corpus`.
     pub generators: BTreeMap<String, u64>,
     /// The ladder players' results across all games; empty if no ladder was played.
     pub ladder: Vec<Rung>,
@@ -59,7 +60,7 @@ pub struct Rung {
     /// The smallest difference in win rate between two releases of this size that can be detected at the 5%
     /// level with 80% power.
     pub detectable: Option<f64>,
-    /// The smallest detectable difference in win rate between two releases with `MONTH` such games.
+    /// The smallest detectable difference in win rate between two releases of `MONTH` such games each.
     pub detectable_month: Option<f64>,
 }
 
@@ -74,7 +75,7 @@ pub struct Novelty {
     pub ancestors: Vec<String>,
     /// The number of new games in all previous releases.
     pub known_games: u64,
-    /// The number of canonical items from corpus games in all previous releases.
+    /// The number of canonical items in the previous releases' corpus games.
     pub known_items: u64,
     /// The distance from each new game to its nearest neighbour in the release, from 0 (the same rules) to 1
     /// (nothing in common).
@@ -103,7 +104,7 @@ pub(crate) fn counted(names: impl Iterator<Item = String>) -> BTreeMap<String, u
     counts
 }
 
-/// Returns the generator of a game's rules, or `corpus`.
+/// Returns the name of the generator that made a game's rules, or `corpus` for a corpus game.
 pub(crate) fn generator(card: &Card) -> String {
     match &card.origin {
         Origin::Corpus { .. } => "corpus".to_owned(),
@@ -111,17 +112,17 @@ pub(crate) fn generator(card: &Card) -> String {
     }
 }
 
-/// A requested range, and the number achieved.
+/// A requested range of counts, and the achieved count.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bin {
     /// The name of a difficulty, a goal or an avatar.
     pub name: String,
-    /// The minimum number requested.
+    /// The smallest count requested.
     pub least: i64,
-    /// The maximum number requested.
+    /// The largest count requested.
     pub most: i64,
-    /// The achieved number.
+    /// The achieved count.
     pub there: i64,
 }
 
@@ -137,7 +138,7 @@ impl Bin {
     }
 }
 
-/// Returns `true` if a game comes from a generator.
+/// Returns `true` if a game was made by a generator.
 pub(crate) fn is_new(card: &Card) -> bool {
     matches!(card.origin, Origin::Generated { .. })
 }

@@ -1,4 +1,4 @@
-//! The win rates of the ladder's players over a whole release, and how they differ between two releases.
+//! The win rates of the ladder's players over a whole release, and the differences between two releases.
 //!
 //! A level's rate is the fraction of its episodes that were won, and all levels have the same weight. Levels of the
 //! same game are correlated, so the intervals use games as the sampling unit ([`statistics::share_over_games`]). The
@@ -43,8 +43,9 @@ pub struct RungRate {
 }
 
 impl RungRate {
-    /// Returns the smallest difference in win rate between two releases with `games` such games that a two-sided test
-    /// at the 5% level detects with 80% power; `None` if there are no games, or if their variance is unknown.
+    /// Returns the smallest difference in win rate between two releases of `games` such games each that a two-sided
+    /// test at the 5% level detects with 80% power. Returns `None` if there are no games, or if their variance is
+    /// unknown.
     ///
     /// The estimate assumes that both releases have the same variance and number of levels per game as the
     /// release measured here.
@@ -160,7 +161,7 @@ pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     players.into_iter().filter_map(rate).collect()
 }
 
-/// Returns a player's results on the levels of a game that it played.
+/// Returns a player's results on those levels of a game that the player played.
 fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a PlayerResult> {
     let ladders = card.levels.iter().filter_map(|level| level.ladder.as_ref());
     let find = ladders.filter_map(|ladder| {
@@ -170,7 +171,7 @@ fn played<'a>(card: &'a Card, player: &str, held_out: bool) -> Vec<&'a PlayerRes
     find.collect()
 }
 
-/// The difference between a player's win rates in two releases.
+/// The difference in a player's win rate between two releases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RungDifference {
@@ -206,8 +207,8 @@ impl RungDifference {
     }
 }
 
-/// Returns the differences between the win rates over two sets of games, for players present in both, in the order of
-/// [`rates`]. Costs as much as two calls to `rates`.
+/// Returns the differences between the win rates over two sets of games, for players present in both sets, in the
+/// order of [`rates`]. Cost: two calls to `rates`.
 pub fn differences(ours: &[Card], theirs: &[Card]) -> Vec<RungDifference> {
     let mut others = rates(theirs);
     let pair = |ours: RungRate| {
@@ -288,7 +289,7 @@ pub(crate) mod tests {
         assert_eq!((random.player.as_str(), random.held_out, random.looks_ahead), ("random", false, false));
         assert_eq!((random.games, random.levels, random.plays, random.wins), (40, 120, 1200, 300));
         assert_eq!(random.mean, 0.25);
-        // The interval is as wide as with 40 trials at 0.25, not with 120: ±13 points.
+        // The interval is as wide as one from 40 trials with rate 0.25, not 120: ±13 points.
         let error = random.error.unwrap();
         assert!((error - (0.25 * 0.75 / 39.0_f64).sqrt()).abs() < 1e-12, "{error}");
         let [low, high] = random.interval;

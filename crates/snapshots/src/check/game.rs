@@ -17,13 +17,14 @@ use forge::games::slug;
 use generators::kernels::Wording;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum size of a `card.json`, in bytes: 1 MiB. The card of a game with twenty levels needs a tenth of
+/// The maximum size of a `card.json`, in bytes: 1 MiB. The card of a game with twenty levels takes up a tenth of
 /// that.
 const CARD_LIMIT: u64 = 1 << 20;
-/// The maximum number of patterns on a card. Generated games have about ten patterns, plus edits.
+/// The maximum number of patterns on a card. A generated game has about ten patterns, in addition to those of its
+/// edits.
 const MAX_PATTERNS: usize = 1024;
 
-/// The files in a game's folder, by relative path.
+/// The relative paths of the files in a game's folder.
 pub(super) type Files = BTreeSet<String>;
 
 /// The result of checking a game.
@@ -49,8 +50,8 @@ impl Checking<'_> {
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
     }
 
-    /// Returns the problems with the texts and facts on a card that must follow from the rules. Texts can be
-    /// compared only if they are in this version's wording.
+    /// Returns the problems with those texts and facts on a card that follow from the rules. Texts can be compared
+    /// only if this version would word them identically.
     fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
         let version = (self.manifest.generation, self.manifest.semantics);
         if version != (generators::GENERATION, engine::SEMANTICS) {
@@ -223,7 +224,7 @@ impl Checking<'_> {
                     won = Some(episode);
                 }
                 Some(Err(error)) => wrong(&witness_file, format!("not a valid witness: {error}")),
-                // That no withheld file is missing has been checked already.
+                // Missing withheld files have already been reported.
                 None if is_sealed => {}
                 None => wrong(&witness_file, "missing or not a text file".to_owned()),
             }
@@ -245,7 +246,7 @@ impl Checking<'_> {
             *replayed += found.replayed;
         }
         seen.entry(game.digest()).or_insert_with(|| folder.to_owned());
-        // The texts are dropped, because the cards of all games are kept until they are counted.
+        // The texts are dropped to save memory, because the cards of all games are kept until they have been counted.
         for text in [&mut card.title, &mut card.description, &mut card.goal, &mut card.rules] {
             *text = String::new();
         }

@@ -65,7 +65,7 @@ pub struct Verification {
     pub witnesses: Witnesses,
     /// `true` if the release is sealed and its secret has not been revealed.
     pub is_secret: bool,
-    /// The work of the replays, in the units of [`Bounds`]; never above the bound.
+    /// The work of the replays, in the units of [`Bounds`]. It never exceeds the bound.
     pub work: u64,
     /// The bound, if all replays together exceed it. In that case, no witness was judged, and the excess is
     /// reported as a problem.
@@ -84,9 +84,9 @@ pub struct Verification {
 
 /// Verifies the release at `root`, a folder or an [archive](crate::contents::archive).
 ///
-/// Paths, links, sizes, digests and the root are checked first. If they are correct, games, levels and cards
-/// must be well-formed and consistent. If the release has the current engine semantics, every witness is then
-/// replayed to its win, within the bounds for all releases ([`Bounds::RELEASE`]).
+/// Paths, links, sizes, digests and the root are checked first. If they are correct, games, levels and cards must be
+/// well-formed and consistent. If the release also has the current engine semantics, every witness is replayed to its
+/// win, within the bounds that apply to every release ([`Bounds::RELEASE`]).
 ///
 /// Cost: one pass over the files and a replay of every witness, on all threads of the current rayon pool.
 ///
@@ -142,7 +142,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
         exceeded = meter.exceeded();
         work = exceeded.unwrap_or(meter.spent());
         match exceeded {
-            // Which replays finished depends on the threads, so no replay results are reported.
+            // The set of finished replays depends on thread scheduling, so no replay results are reported.
             Some(limit) => problems.push(format!(
                 "games: replaying the witnesses takes more than {limit} units of work, the limit for {} levels",
                 declared_levels(&manifest)
@@ -218,7 +218,7 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     }
     let (of, source) = match manifest.commitment {
         Some(commitment) => (Some(commitment), "commitment"),
-        // The manifest was read, so its recipe has a canonical text.
+        // The manifest could be read, so its recipe has a canonical text.
         None if manifest.generation >= CARD_AND_CANARY_SINCE => {
             (to_canonical_json(&manifest.recipe).ok().map(|text| Digest::of(text.as_bytes())), "recipe")
         }
@@ -248,7 +248,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     let known = match manifest.recipe.get("known").map(|known| serde_json::from_value(known.clone())) {
         None => Known::default(),
         Some(Ok(known)) => known,
-        // A different generation may store more.
+        // The record of a different generation may contain more.
         Some(Err(_)) if manifest.generation != generators::GENERATION => return,
         Some(Err(error)) => return wrong(&format!("is malformed ({error})")),
     };
@@ -274,7 +274,7 @@ fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<Strin
     let summaries = summaries.iter().map(String::as_str);
     let awaited: BTreeSet<&str> = witnesses.chain([SECRET_FILE]).chain(summaries).collect();
     let listed = manifest.held();
-    // Hidden files are judged when they are revealed.
+    // Files that are still hidden are checked when they are revealed.
     let is_hidden = |path: &str| {
         let part = if is_solution(path) { HeldPart::Solutions } else { HeldPart::Rest };
         manifest.hides(part)

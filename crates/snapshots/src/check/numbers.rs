@@ -1,4 +1,4 @@
-//! Plausibility checks of the numbers on a card.
+//! Plausibility checks for the numbers on a card.
 //!
 //! The checks replay nothing, so a plausible number may still differ from the judges' result. `regenerate`
 //! detects such differences.
@@ -12,7 +12,7 @@ use validators::{Difficulty, Ladder, PlayerResult, Rate};
 const MAX_SCORE: f64 = 1e15;
 /// The maximum number of episodes of one player on one level.
 const MAX_PLAYS: u64 = 1_000_000;
-/// The tolerance between an interval and the same interval computed from its counts, because other versions
+/// The tolerance for a stated interval, compared with the interval computed from its counts, because other versions
 /// may round differently.
 const ROUNDING: f64 = 1e-9;
 

@@ -1,4 +1,4 @@
-//! The lists of a sealed release's withheld files, and the commitments to these lists.
+//! The lists of a sealed release's withheld files, and the commitments to those lists.
 //!
 //! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files,
 //! because anyone could check a guessed text against its digest. Instead, its manifest contains the digests
@@ -59,10 +59,10 @@ pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String,
     Ok(lists)
 }
 
-/// Adds the files in a part's list to the withheld files that a manifest knows.
+/// Adds the files in a part's list to the withheld files known to a manifest.
 ///
 /// # Errors
-/// Returns an error if the list differs from the committed one, or contains a file that it must not contain.
+/// Returns an error if the list differs from the committed one, or contains a file that is not allowed in it.
 pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) -> Result<(), Flaw> {
     let withheld = manifest.withheld.as_mut().expect("asked of releases that hide what they withhold");
     let (found, stated) = (Digest::of(bytes), withheld.digest(part));
@@ -84,7 +84,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     withheld.disclosed.push(Item::of(part.list(), bytes));
     withheld.disclosed.extend(list.items);
     withheld.disclosed.sort_by(|a, b| a.path.cmp(&b.path));
-    // The files are checked together with all others, because their paths might conflict.
+    // The new files are checked together with all others, because their paths might conflict.
     if let Err(error) = manifest.check_files() {
         manifest.withheld.as_mut().expect("the manifest withholds files").disclosed = before;
         return Err(Flaw::NotAList(error.to_string()));
@@ -92,7 +92,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     Ok(())
 }
 
-/// Returns a sentence about the problem with a part's list, checked against the secret; `None` if the list is
+/// Returns a sentence about the salt in a part's list if it is not derived from the secret; `None` if the salt is
 /// correct.
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;

@@ -34,7 +34,7 @@ impl Integrity {
         self.problems.is_empty()
     }
 
-    /// Returns an error about the release at `path` if it has problems.
+    /// Returns an error about the release at `path` if there are problems.
     pub(crate) fn require_sound(&self, path: &Path) -> Result<(), SnapshotError> {
         let Some((first, more)) = self.problems.split_first() else { return Ok(()) };
         let (path, first) = (path.to_path_buf(), first.to_string());
@@ -49,8 +49,8 @@ impl Integrity {
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
 /// # Errors
-/// Returns an error if the manifest is missing or unsound in itself (see [`Manifest::parse`]), or if a file system
-/// operation fails.
+/// Returns an error if the manifest is missing or invalid (see [`Manifest::parse`]), or if a file system operation
+/// fails.
 pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     let bytes = folder::read(root, MANIFEST_FILE, MANIFEST_LIMIT).map_err(|error| absent(error, root))?;
     let mut manifest =
@@ -63,7 +63,7 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     Ok(Integrity { manifest, problems, beside })
 }
 
-/// Converts the error for a manifest that cannot be read.
+/// Replaces the error for a manifest that cannot be read with one about the release at `root`.
 fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     let path = root.to_path_buf();
     match error {
@@ -80,7 +80,7 @@ fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     }
 }
 
-/// Returns the problems with a readable manifest: its text, its root, its checksum.
+/// Returns the problems with a readable manifest: with its text, its root, or its checksum.
 pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
     let problem = |flaw| Problem { path: MANIFEST_FILE.into(), flaw };
     let mut problems = Vec::new();
@@ -96,8 +96,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads those lists of withheld files that exist, and returns their problems. The list of published coin
-/// wins may exist without the list of all other files, but not vice versa.
+/// Reads the lists of withheld files that exist, and returns the problems with them. The list of published coin wins
+/// may exist without the list of all other files, but not vice versa.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,
@@ -139,7 +139,7 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
     // Entries that exist but are not plain files have already been reported, so they do not count as missing.
     let named: BTreeSet<String> = problems.iter().map(|problem| problem.path.clone()).collect();
     let mut awaited: BTreeMap<&str, _> = manifest.files().map(|item| (item.path.as_str(), item)).collect();
-    // The lists of withheld files have already been judged.
+    // The lists of withheld files have already been checked.
     let is_judged = |path: &str| {
         path == MANIFEST_FILE || manifest.withheld.is_some() && HeldPart::of_list(path).is_some()
     };
@@ -158,8 +158,8 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    // Before the reveal, a sealed release withholds either all of its witnesses or none. If coins have chosen
-    // between wins, the published wins may already be present. No hidden file is expected.
+    // Before the reveal, a sealed release withholds either all of its witnesses or none. If coins have decided which
+    // wins to publish, the published wins may already be present. Hidden files are not expected.
     let is_listed = manifest.kind == ReleaseKind::Sealed && manifest.withheld.is_none();
     let is_held = |path: &str| is_listed && path.starts_with(HELD);
     let stays = |path: &str| is_held(path) && !is_solution(path);

@@ -1,4 +1,4 @@
-//! Access to a release, in a folder or in an archive.
+//! Access to a release, which is either a folder or an archive.
 
 pub mod archive;
 pub(crate) mod disclose;

@@ -1,5 +1,4 @@
-//! Inclusion proofs, which show that a released file or game is under a root without needing the rest of the
-//! release.
+//! Inclusion proofs, which show that a released file or game is under a root, without the rest of the release.
 //!
 //! A proof is a small file in canonical JSON. It contains no secrets and need not be trusted: the verifier
 //! trusts only a root from a different source.
@@ -23,7 +22,7 @@ const PROOF_FORMAT: u32 = 1;
 /// The maximum height of a tree with at most 2⁶⁴ leaves.
 const MAX_HEIGHT: usize = 64;
 
-/// A reason why a proof cannot be created or read. It concerns the request, not the item.
+/// A reason why a proof cannot be created or read. It is about the request, not about the item.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProofError {
@@ -66,7 +65,7 @@ pub enum ProofError {
 pub struct ItemProof {
     /// The version of this layout: 1.
     pub format: u32,
-    /// The release's name, which is a label that proves nothing.
+    /// The release's name. It is a label that proves nothing.
     pub release: String,
     /// The proof's root. Compare it with a root from a different source.
     pub root: Digest,
@@ -90,9 +89,10 @@ pub struct FileProof {
 }
 
 impl ItemProof {
-    /// Creates the proof for `id`: a path in the manifest, or a game's ID for all of the game's files.
+    /// Creates the proof for `id`, which is either a path in the manifest or the ID of a game. An ID selects all of
+    /// the game's files.
     ///
-    /// Cost: O(n log n) in the number of files in the release, for each file of the item.
+    /// Cost: O(n log n) for each file of the item, where n is the number of files in the release.
     ///
     /// # Errors
     /// Returns an error if the item does not exist.
@@ -139,7 +139,7 @@ impl ItemProof {
     ///   or is empty.
     /// - The label is not a release name.
     /// - The files are unsorted, have unsafe or reserved paths, or do not belong to the item.
-    /// - A file's path to the root or its position is impossible in the tree.
+    /// - A file's position, or its path to the root, is impossible in the tree.
     pub fn parse(bytes: &[u8]) -> Result<ItemProof, ProofError> {
         if bytes.len() as u64 > MAX_PROOF {
             return Err(ProofError::TooLarge);
@@ -203,8 +203,8 @@ impl ItemProof {
         Ok(proof)
     }
 
-    /// Returns every reason why the item `id` is not under `root` with these files, each with the path of the file
-    /// and the digests; empty if the item is under `root`. `content` returns the digest of the file at a path, or
+    /// Returns every reason why the item `id` is not under `root` with the given files; empty if the item is under
+    /// `root`. Each reason names a file and its digests. `content` returns the digest of the file at a path, or
     /// `None` if there is no such file.
     ///
     /// # Errors

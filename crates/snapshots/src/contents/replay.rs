@@ -1,11 +1,11 @@
-//! Replays of witnesses within bounds, which limit the cost of an untrusted release.
+//! Replays of witnesses within bounds that limit the cost of checking an untrusted release.
 
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The bound on the work of a release's replays, in units of the engine's limit on one tick
-/// ([`MAX_WORK`](engine::MAX_WORK)). Visiting a sprite or a cell costs one unit. One core does about 50 to
-/// 200 million units per second.
+/// The bound on the work of a release's replays. The unit of work is that of the engine's limit on one tick
+/// ([`MAX_WORK`](engine::MAX_WORK)): visiting a sprite or a cell costs one unit. One core does about 50 to 200
+/// million units per second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Bounds {
     /// The number of units allowed for every release.
@@ -15,7 +15,8 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// 2³¹ units, plus 2²¹ units per level, which allow 455 ticks of a quiet game: 10 to 60 seconds on one core.
+    /// 2³¹ units plus 2²¹ units per level, which is 10 to 60 seconds on one core. 2²¹ units allow 455 ticks of a
+    /// quiet game.
     pub const RELEASE: Bounds = Bounds { work: 1 << 31, work_per_level: 1 << 21 };
 
     /// Returns the maximum number of units for a release with the given number of levels.
@@ -26,7 +27,7 @@ impl Bounds {
 
 /// A counter of the work of all replays of a release, shared between threads.
 ///
-/// The result does not depend on the number of threads: the limit applies to the total work of all replays.
+/// The result does not depend on the number of threads, because the limit applies to the total work of all replays.
 pub(crate) struct Meter {
     limit: u64,
     spent: AtomicU64,
@@ -53,7 +54,7 @@ impl Meter {
     }
 }
 
-/// The minimum number of units counted per tick. The slowest ticks with almost no counted work take 50
+/// The minimum number of units counted per tick. Among ticks with almost no counted work, the slowest take 50
 /// microseconds.
 const TICK: u64 = 4096;
 

@@ -3,8 +3,8 @@
 use crate::error::SnapshotError;
 use std::path::Path;
 
-/// Rejects `.partial` folders and everything inside them, because even a complete release does not count
-/// before its publication.
+/// Rejects `.partial` folders and everything inside them, because even a complete release does not count until it is
+/// published.
 pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
     let real = std::fs::canonicalize(root).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),

@@ -1,4 +1,4 @@
-//! The games and items that are new, kept, changed or removed.
+//! New, kept, changed and removed games and items.
 
 use super::Compared;
 use crate::released::ReleasedGame;
@@ -13,14 +13,14 @@ use validators::novelty::canonical_types;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// The game or item has no equal in the earlier release.
+    /// The earlier release has no equal game or item.
     New,
     /// The game or item is in both releases, with the same canonical text.
     Kept,
     /// The game or item is in both releases, but differs in names, appearance or order (or, for a level, in
     /// characters or orientation).
     Changed,
-    /// The game or item has no equal in the later release.
+    /// The later release has no equal game or item.
     Gone,
 }
 
@@ -35,7 +35,7 @@ pub struct Change {
     /// The path in the earlier release, if the game or item is kept or changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub was: Option<String>,
-    /// `true` if the rules are generated. Corpus games are expected to return with new levels, but generated games
+    /// `true` if the rules were generated. Corpus games are expected to return with new levels, but generated games
     /// are not.
     pub generated: bool,
 }
@@ -144,9 +144,9 @@ pub(super) fn items(before: &[Compared<'_>], after: &[Compared<'_>]) -> Changes 
     Changes::of(&before, &after)
 }
 
-/// Returns a digest for each level of a game. Levels of games with equal forms have the same digest if they
-/// place the same types in the same cells, up to a symmetry of the board. The equality can be missed only if
-/// types are interchangeable.
+/// Returns a digest for each level of a game. Levels of games with equal forms have the same digest if they place the
+/// same types in the same cells, up to a symmetry of the board. Equal levels can have different digests only if types
+/// are interchangeable.
 ///
 /// Cost: one [`GameForm`](validators::GameForm), plus O(cells).
 pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
@@ -155,7 +155,7 @@ pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     for (at, stype) in canonical_types(game).into_iter().enumerate() {
         place[stype.index()] = Some(at as u32);
     }
-    // The types that each character places, in an order that does not depend on names.
+    // The positions of the types that each character places, in an order that does not depend on names.
     let placed: Vec<Vec<u32>> = (0..=u8::MAX)
         .map(|symbol| {
             let mut places: Vec<u32> =
@@ -167,7 +167,7 @@ pub(super) fn level_forms(released: &ReleasedGame) -> Vec<Digest> {
     released.levels.iter().map(|level| level_form(&level.level, &placed)).collect()
 }
 
-/// Returns the smallest of a board's eight symmetric images.
+/// Returns the digest of the smallest of a board's eight symmetric images.
 fn level_form(level: &Level, placed: &[Vec<u32>]) -> Digest {
     let (columns, rows) = (level.columns(), level.rows());
     let image = |symmetry: usize| {

@@ -42,12 +42,12 @@ pub struct Side {
     pub generation: u32,
 }
 
-/// The comparison of two releases, an earlier and a later one.
+/// The comparison of an earlier and a later release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diff {
     /// The comparison in one sentence, covering difficulty, returning levels and nearest games.
     pub verdict: String,
-    /// The order of the two releases according to the chain that they state.
+    /// The order of the two releases, according to the parents and ancestors that they state.
     pub order: Order,
     /// The earlier release.
     pub before: Side,
@@ -57,9 +57,9 @@ pub struct Diff {
     pub games: Changes,
     /// The changes in the items. An item is a level with its game's rules.
     pub items: Changes,
-    /// The distributions of labels. Each game or level has one or more labels.
+    /// The changes in the distributions of labels. Each game or level has one or more labels.
     pub shifts: Vec<Shift>,
-    /// The distributions of numbers.
+    /// The changes in the distributions of numbers.
     pub numbers: Vec<NumberShift>,
     /// The change in each ladder player's results: later minus earlier.
     pub rungs: Vec<RungDifference>,
@@ -76,8 +76,7 @@ struct Compared<'a> {
     released: &'a ReleasedGame,
     form: GameForm,
     kind: GameKind,
-    /// One digest per level. Digests are equal for levels that are the same up to names, characters and
-    /// symmetry.
+    /// One digest per level. Levels that differ only in names, characters and board symmetry have the same digest.
     levels: Vec<Digest>,
 }
 
@@ -100,7 +99,7 @@ impl Diff {
     /// Compares two releases, and lists the nearest `closest` pairs of games.
     ///
     /// Cost: an analysis of each game, its distance to all others, and about a thousand resamples of the games for
-    /// each figure. With hundreds of games, a comparison takes seconds.
+    /// each figure. A comparison of releases with hundreds of games takes seconds.
     pub fn of(before: &Released, after: &Released, closest: usize) -> Diff {
         let [old, new] =
             [before, after].map(|side| side.games.par_iter().map(Compared::of).collect::<Vec<_>>());

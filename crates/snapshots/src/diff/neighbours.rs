@@ -36,7 +36,7 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Finds the nearest neighbours. Costs O(rules) per pair of games.
+    /// Finds the nearest neighbours. Cost: O(rules) per pair of games.
     pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>], closest: usize) -> Neighbours {
         let rows: Vec<Vec<f64>> = after
             .par_iter()

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// The number of deals in a permutation test, not counting the observed deal.
 pub const DEALS: usize = 999;
 
-/// A value in a distribution, with its counts.
+/// A value in a distribution, with its count in each release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
     /// The value.
@@ -25,7 +25,7 @@ pub struct Share {
     pub after: usize,
 }
 
-/// A distribution in both releases.
+/// The distribution of a label in both releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shift {
     /// The distribution's name.
@@ -67,7 +67,7 @@ impl Unmeasured {
     }
 }
 
-/// The distributions of a numeric property in both releases.
+/// The distribution of a numeric property in both releases.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NumberShift {
     /// The property's name.
@@ -89,9 +89,9 @@ pub struct NumberShift {
 /// A game's values in a distribution: one, several, or one for each level.
 type Values = fn(&Compared<'_>) -> Vec<String>;
 
-/// The distribution of difficulty labels.
+/// The name of the distribution of difficulty labels.
 pub(super) const DIFFICULTY: &str = "difficulty of levels";
-/// The distribution of eases.
+/// The name of the distribution of eases.
 const EASE: &str = "ease of a level";
 
 const SHIFTS: &[(&str, Values)] = &[
@@ -136,7 +136,7 @@ const NUMBERS: &[(&str, Numbers)] = &[
     }),
 ];
 
-/// Computes all distributions of values.
+/// Computes all distributions of labels.
 pub(super) fn shifts(before: &[Compared<'_>], after: &[Compared<'_>]) -> Vec<Shift> {
     let shift = |&(name, of): &(&'static str, Values)| {
         let games = |side: &[Compared<'_>]| side.iter().map(of).collect::<Vec<_>>();
@@ -202,7 +202,8 @@ impl NumberShift {
             let (mut below, mut most) = ([0_u32; 2], 0.0_f64);
             for (at, (number, game)) in numbers.iter().enumerate() {
                 below[usize::from(sides[*game])] += 1;
-                // Among equal numbers, only the last is compared, because its count includes all of them.
+                // Among equal numbers, the distance is computed only at the last, because its count includes all of
+                // them.
                 if numbers.get(at + 1).is_none_or(|(next, _)| next != number) {
                     let [one, other] = [0, 1].map(|side| f64::from(below[side]) / f64::from(all[side]));
                     most = most.max((one - other).abs());
@@ -217,8 +218,8 @@ impl NumberShift {
     }
 }
 
-/// Returns the total variation distance, half the sum of the differences between the fractions; `None` if either side
-/// is empty.
+/// Returns the total variation distance, which is half the sum of the absolute differences between the fractions;
+/// `None` if either side is empty.
 fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     let all = [0, 1].map(|side: usize| counts.iter().map(|count| count[side]).sum::<u32>());
     let share = |count: &[u32; 2], side: usize| f64::from(count[side]) / f64::from(all[side]);
@@ -226,7 +227,7 @@ fn variation(counts: &[[u32; 2]]) -> Option<f64> {
     (!all.contains(&0)).then(|| counts.iter().map(apart).sum::<f64>() / 2.0)
 }
 
-/// Computes a distance and its p-value. `distance` is called with one side label per game, earlier games
+/// Computes a distance and its p-value. `distance` is called with the side assigned to each game, earlier games
 /// first.
 fn test(
     name: &str,
@@ -240,8 +241,8 @@ fn test(
     let mut as_far = 1;
     for _ in 0..DEALS {
         sampler.shuffle(&mut sides);
-        // The tolerance allows for rounding. A deal that leaves one side without values counts as maximally
-        // far apart.
+        // The tolerance allows for rounding. A deal that leaves one side without values counts as the largest
+        // distance.
         as_far += usize::from(distance(&sides).is_none_or(|apart| apart >= found - 1e-12));
     }
     (Some(found), Some(as_far as f64 / (DEALS + 1) as f64))

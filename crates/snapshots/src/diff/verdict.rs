@@ -1,14 +1,14 @@
-//! The one-sentence verdict of a comparison, and the order of the two releases.
+//! The one-sentence verdict on a comparison, and the order of the two releases.
 
 use super::Diff;
 use super::shifts::{DIFFICULTY, Shift};
 use crate::format::manifest::Manifest;
 use serde::Serialize;
 
-/// The p-value from which a difference is attributed to chance.
+/// The smallest p-value at which a difference is attributed to chance.
 const CHANCE: f64 = 0.05;
 
-/// The order of two releases according to the chain that they state.
+/// The order of two releases, according to the parents and ancestors that they state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Order {

@@ -20,9 +20,9 @@ pub struct Abandoned {
 }
 
 impl Abandoned {
-    /// Returns the abandoned draft in the `.partial` folder at `partial`; `None` if the folder does not belong to a
-    /// draft, or if a process is working on the draft. A folder belongs to a draft only if it contains a lock and
-    /// otherwise only draft files. Links are not followed.
+    /// Returns the abandoned draft in the `.partial` folder at `partial`. Returns `None` if the folder does not
+    /// belong to a draft, or if a process is working on the draft. A folder belongs to a draft only if it contains a
+    /// lock and, apart from that, only draft files. Links are not followed.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.
@@ -60,8 +60,8 @@ impl Abandoned {
     }
 }
 
-/// Returns `true` if the folder is not a link, and contains a draft's lock and otherwise only draft files. A
-/// run killed while starting or ending leaves only a lock.
+/// Returns `true` if the folder is not a link, and contains a draft's lock and, apart from that, only draft files. A
+/// run that is killed while starting or ending leaves only a lock.
 fn holds_work(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() || !fs::symlink_metadata(partial.join(LOCK))?.is_file() {
         return Ok(false);
@@ -88,7 +88,7 @@ mod tests {
     use super::super::tests::{home, names};
     use super::*;
 
-    /// Leaves a draft behind, as a killed run does.
+    /// Leaves a draft behind, like a run that is killed.
     fn killed(out: &Path) -> PathBuf {
         let draft = Draft::create(out).expect("vacant");
         draft.write("games/a", b"one").expect("written");

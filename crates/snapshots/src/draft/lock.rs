@@ -18,18 +18,18 @@ pub(super) const TREE: &str = "tree";
 /// The folder whose content is kept if the work is interrupted.
 pub(super) const JOBS: &str = "jobs";
 
-/// Creates or takes over `partial`, locks it, and marks it as belonging to a draft.
+/// Creates `partial` or takes it over, locks it, and marks it as belonging to a draft.
 pub(super) fn acquire(partial: &Path) -> Result<Lock, SnapshotError> {
     let mut lock = take(partial)?;
     mark(lock.file()).map_err(SnapshotError::io("lock", &partial.join(LOCK)))?;
     Ok(lock)
 }
 
-/// Creates or takes over `partial`, and locks it. An existing lock file is left unchanged.
+/// Creates `partial` or takes it over, and locks it. An existing lock file is left unchanged.
 pub(super) fn take(partial: &Path) -> Result<Lock, SnapshotError> {
     let busy = || SnapshotError::Busy(partial.to_path_buf());
     let lock_path = partial.join(LOCK);
-    // If a process that finishes in the meantime removes the folder, the attempt starts over.
+    // If a process that is finishing removes the folder in the meantime, the attempt starts over.
     for _ in 0..16 {
         match fs::create_dir(partial) {
             Err(source) if source.kind() != ErrorKind::AlreadyExists => {
@@ -65,8 +65,8 @@ fn mark(lock: &mut File) -> io::Result<()> {
     lock.sync_all()
 }
 
-/// Returns `true` if the folder belongs to a draft. Such a folder contains only draft files, and has a lock
-/// with [`MARK`] unless there is nothing to lose. For example, `--out results` must not delete a user's own
+/// Returns `true` if the folder belongs to a draft. Such a folder contains only draft files, and has a lock with
+/// [`MARK`] unless there is no work to lose. For example, `--out results` must not delete a user's own
 /// `results.partial`.
 pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     if !fs::symlink_metadata(partial)?.is_dir() {
@@ -86,16 +86,15 @@ pub(super) fn is_ours(partial: &Path) -> io::Result<bool> {
     }
     Ok(match lock {
         Some(lock) if lock == MARK.as_bytes() => true,
-        // A run that was killed before writing the mark, or is about to write it, has written nothing else
-        // yet.
+        // A run that was killed before writing the mark, or is about to write it, has not written anything else.
         Some(lock) => MARK.as_bytes().starts_with(&lock) && !work,
         None => !work,
     })
 }
 
-/// Reads the start of a lock file, up to one byte more than the length of [`MARK`]. Returns [`MARK`] if the
-/// file cannot be read because a different process has locked it (on Windows), because the next step attempts
-/// to lock it anyway.
+/// Reads the start of a lock file, up to one byte more than the length of [`MARK`]. On Windows, a file locked by a
+/// different process cannot be read. In that case, returns [`MARK`], because the next step attempts to lock the file
+/// anyway.
 fn content(lock: &Path) -> io::Result<Vec<u8>> {
     match disk::read_start(lock, MARK.len() as u64 + 1) {
         Err(_) if cfg!(windows) => Ok(MARK.as_bytes().to_vec()),
@@ -174,8 +173,8 @@ mod tests {
         assert!(matches!(Draft::create(&out), Err(SnapshotError::Occupied(_))));
     }
 
-    /// Many threads race for one folder. Each thread either acquires the folder exclusively or receives the
-    /// reason why it failed.
+    /// Many threads race for one folder. Each thread either acquires the folder exclusively or receives the reason
+    /// for its failure.
     #[test]
     fn a_race_has_one_winner_at_a_time() {
         let (home, out) = home();

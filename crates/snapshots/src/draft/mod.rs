@@ -30,7 +30,7 @@ use disk::Lock;
 use lock::{JOBS, LOCK, TREE};
 use sync::{sync_folder, sync_folders};
 
-/// The file name inside the tree for a draft that is published as a single file.
+/// The file inside the tree if the draft is published as a single file.
 const SINGLE: &str = "file";
 
 pub use abandoned::Abandoned;
@@ -55,10 +55,13 @@ impl Draft {
     /// the same `out`.
     ///
     /// # Errors
-    /// Returns an error if `out` is occupied ([`Occupied`](SnapshotError::Occupied)), if a different process is
-    /// writing it ([`Busy`](SnapshotError::Busy)), if an interrupted run has left work
-    /// ([`Interrupted`](SnapshotError::Interrupted)), if `<out>.partial` does not belong to a draft
-    /// ([`Foreign`](SnapshotError::Foreign)), or if a file system operation fails.
+    /// Returns an error in each of these cases:
+    ///
+    /// - `out` is occupied ([`Occupied`](SnapshotError::Occupied)).
+    /// - A different process is writing `out` ([`Busy`](SnapshotError::Busy)).
+    /// - An interrupted run has left work ([`Interrupted`](SnapshotError::Interrupted)).
+    /// - `<out>.partial` does not belong to a draft ([`Foreign`](SnapshotError::Foreign)).
+    /// - A file system operation fails.
     pub fn create(out: &Path) -> Result<Draft, SnapshotError> {
         let draft = Draft::resume(out)?;
         match fs::read_dir(draft.jobs()).is_ok_and(|mut jobs| jobs.next().is_some()) {
@@ -91,9 +94,9 @@ impl Draft {
     /// Writes the file at `relative`, creates its parents, and waits until the content is on disk.
     ///
     /// # Errors
-    /// Returns an error if the path is unsafe, the file is larger than readers accept, the file was already
-    /// written (on a case-insensitive file system, also under a name that differs only in case), or a file
-    /// system operation fails.
+    /// Returns an error if the path is unsafe, the file is larger than readers accept, the file was already written,
+    /// or a file system operation fails. On a case-insensitive file system, a name that differs only in case counts
+    /// as the same file.
     pub fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), SnapshotError> {
         let limit = Limits::SNAPSHOT.file_bytes;
         if bytes.len() as u64 > limit {
@@ -163,7 +166,7 @@ impl Draft {
         remove_tree(&jobs).map_err(SnapshotError::io("remove", &jobs))
     }
 
-    /// Creates the file for a draft that is published as a single file. Returns the file, and its path for
+    /// Creates the file of a draft that is published as a single file. Returns the file, and its path for use in
     /// messages.
     ///
     /// # Errors
@@ -186,8 +189,8 @@ impl Draft {
         match fs::hard_link(&path, &self.out) {
             Ok(()) => {}
             Err(source) if source.kind() == ErrorKind::AlreadyExists => return Err(taken()),
-            // Not every file system has links. On those without, the rename would replace a file created
-            // after this check.
+            // Not every file system supports links. Without links, the rename would replace a file created after this
+            // check.
             Err(_) if fs::symlink_metadata(&self.out).is_ok() => return Err(taken()),
             Err(_) => fs::rename(&path, &self.out).map_err(SnapshotError::io("create", &self.out))?,
         }
@@ -265,7 +268,7 @@ fn partial_of(out: &Path) -> Option<PathBuf> {
     Some(out.with_file_name(name))
 }
 
-/// Returns the parent folder of `path`. The result is never the empty path.
+/// Returns the parent folder of `path`, which is never the empty path.
 fn parent_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,

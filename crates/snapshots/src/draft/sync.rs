@@ -1,5 +1,5 @@
-//! Waits until names are on disk. A rename or a new folder is durable only after the folder that contains its
-//! name has been synced.
+//! Functions that wait until names are on disk. A rename or a new folder is durable only after the folder that
+//! contains its name has been synced.
 
 use std::fs;
 use std::path::Path;

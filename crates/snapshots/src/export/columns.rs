@@ -25,8 +25,8 @@ pub enum ColumnKind {
     Flag,
     /// A list of texts, possibly empty.
     Texts,
-    /// A list of records, possibly empty. The value lists the records' fields and their types. Fields cannot
-    /// be lists.
+    /// A list of records, possibly empty. The variant's value lists the fields of a record with their types. A field
+    /// cannot be a list.
     Records(&'static [(&'static str, ColumnKind)]),
 }
 

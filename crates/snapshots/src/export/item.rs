@@ -1,4 +1,4 @@
-//! The source of an export's row: a level with its game, either in the game's own theme or as a twin.
+//! The source of a row in an export: a level with its game, either in the game's own theme or as a twin.
 
 use crate::format::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};

@@ -1,7 +1,7 @@
 //! Exports a release for other tools, as a dataset or as plain game folders. A dataset has one row per level, as
 //! JSON Lines or Parquet, and a dataset card for dataset hubs.
 //!
-//! The same release produces identical bytes. Solutions are excluded by default.
+//! Exporting the same release again produces identical bytes. Solutions are excluded by default.
 
 mod columns;
 mod item;
@@ -56,7 +56,7 @@ pub enum ExportError {
 
 /// Exports a release as rows with a dataset card, or as folders of games.
 ///
-/// Costs an analysis of each game and, for twins, their creation ([`twin::of_game`]).
+/// Cost: an analysis of each game and, for twins, their creation ([`twin::of_game`]).
 ///
 /// # Errors
 /// See [`ExportError`].
@@ -111,8 +111,7 @@ pub fn export(released: &Released, export: &Export) -> Result<Exported, ExportEr
     Ok(Exported { files, games, levels, left_out })
 }
 
-/// Returns a game's rules and levels as files in a folder of their own, the form that players and other tools
-/// read.
+/// Returns a game's rules and levels as the files of one folder, which is the form that players and other tools read.
 fn folder(card: &Card, exported: &ExportedGame<'_>) -> Vec<(String, Vec<u8>)> {
     let file = |name: String, text: &str| (format!("{}/{name}", card.id), text.as_bytes().to_vec());
     let levels = exported.levels.iter().enumerate();

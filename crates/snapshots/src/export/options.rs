@@ -3,9 +3,9 @@
 use crate::twin::Twin;
 use std::fmt;
 
-/// The name of the only split. The whole release is meant for evaluation, but without a named split, tools
-/// would treat everything as training data. To divide a release, for example by origin or difficulty, filter
-/// by a column.
+/// The name of the only split. Without a named split, tools would treat everything as training data, although the
+/// whole release is meant for evaluation. To divide a release, for example by origin or difficulty, filter by a
+/// column.
 pub const SPLIT: &str = "test";
 
 /// The export format.

@@ -27,7 +27,7 @@ pub(super) fn page(released: &Released, export: &Export, columns: &[Column], row
     text
 }
 
-/// Quotes a text for YAML in the style of JSON, which is valid in YAML.
+/// Quotes text for YAML in JSON style, which is valid YAML.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

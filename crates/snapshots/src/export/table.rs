@@ -1,8 +1,7 @@
 //! The Parquet format: the same rows, stored by column.
 //!
-//! The file uses plain format 1.0 without compression, with one row group and without a time or machine name
-//! in the footer. The same rows therefore produce identical bytes. Dictionary encoding makes repeated texts
-//! cheap.
+//! The file uses plain format 1.0 with one row group and no compression, and states neither a time nor a machine name
+//! in the footer. The same rows therefore produce identical bytes. Dictionary encoding makes repeated texts cheap.
 
 use super::columns::{Column, ColumnKind};
 use parquet::basic::Compression;

@@ -3,7 +3,7 @@
 
 use base::Digest;
 
-/// The key derivation context. It belongs to format 1: changing it changes every canary.
+/// The key derivation context. It belongs to format 1, because changing it changes every canary.
 const CONTEXT: &str = "infinite-arcade 1 canary";
 
 /// Derives the canary of a sealed release from its commitment, or of an open release from its recipe's digest.

@@ -15,10 +15,10 @@ use crate::format::path::{PathProblem, check_path};
 use crate::format::problem::{Flaw, Problem};
 use base::Digest;
 
-/// A release folder's limits.
+/// The limits on a release folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// The maximum number of files, and also of folders.
+    /// The maximum number of files, and the maximum number of folders.
     pub files: u64,
     /// The maximum size of one file, in bytes.
     pub file_bytes: u64,
@@ -47,7 +47,7 @@ pub struct Listing {
     pub entries: Vec<Entry>,
     /// The problems with all other entries, sorted.
     pub problems: Vec<Problem>,
-    /// The skipped top-level names, sorted.
+    /// The top-level names that were skipped, sorted.
     pub passed_over: Vec<String>,
     /// `true` if the whole folder was listed, or `false` after [`Flaw::TooMany`], in which case there are no
     /// entries.
@@ -59,7 +59,7 @@ pub struct Listing {
 /// Links, special files, unsafe names, empty folders and exceeded limits are reported as problems, not
 /// errors.
 ///
-/// Costs one examination per name, for at most twice `limits.files` names. Files are not opened.
+/// Cost: one examination per name, for at most twice `limits.files` names. Files are not opened.
 ///
 /// # Errors
 /// Returns an error if a folder cannot be read.

@@ -1,4 +1,4 @@
-//! The names of release files.
+//! The names of the files in a release.
 
 use crate::format::manifest::item::ReleaseKind;
 
@@ -10,7 +10,7 @@ pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
 /// The withheld file that contains a sealed release's secret.
 pub const SECRET_FILE: &str = "held/secret.json";
-/// The folder of a sealed release's files that are withheld until the reveal.
+/// The folder for the files of a sealed release that are withheld until the reveal.
 pub const HELD: &str = "held/";
 
 /// Returns the path of a level's witness in a release. `game` is the name of the game's folder in `games`.
@@ -35,8 +35,8 @@ pub(crate) fn second_path(game: &str, level: usize) -> String {
     format!("{HELD}seconds/{game}/lvl{level}.json")
 }
 
-/// Returns `true` if a withheld file belongs to the published coin wins, which can be revealed before all
-/// other files.
+/// Returns `true` if a withheld file belongs to the published coin wins, which can be revealed before the other
+/// files.
 pub(crate) fn is_solution(path: &str) -> bool {
     path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)
 }

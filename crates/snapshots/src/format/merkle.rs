@@ -1,6 +1,6 @@
-//! A Merkle tree over a release's files, with which one file can be proved without the others.
+//! A Merkle tree over a release's files, which makes it possible to prove one file without the others.
 //!
-//! The shape follows RFC 6962 §2.1 (a tree of n leaves splits at the largest power of two below n). The hash is
+//! The shape follows RFC 6962 §2.1: a tree of n leaves splits at the largest power of two below n. The hash is
 //! BLAKE3. Leaves and nodes are domain-separated, so that neither can pass for the other:
 //!
 //! ```text
@@ -68,7 +68,7 @@ pub struct Proof {
     pub index: u64,
     /// The number of leaves in the tree.
     pub size: u64,
-    /// The roots of the sibling subtrees, from the leaf's sibling to the root's child.
+    /// The roots of the sibling subtrees, starting with the leaf's sibling and ending with a child of the root.
     pub siblings: Vec<Digest>,
 }
 
@@ -79,8 +79,8 @@ impl Proof {
         if self.index >= self.size {
             return false;
         }
-        // RFC 9162 §2.1.3.2: the bits of `position` state on which side of us each sibling is. `last` is the
-        // position of the rightmost node on the same level, which has no sibling if the tree is ragged.
+        // RFC 9162 §2.1.3.2: the bits of `position` state on which side each sibling is. `last` is the position of
+        // the rightmost node on the same level, which has no sibling if the tree is ragged.
         let (mut position, mut last) = (self.index, self.size - 1);
         let mut hash = leaf_hash(leaf);
         for sibling in &self.siblings {
@@ -212,7 +212,7 @@ mod tests {
         assert_eq!(prove(&[], "f0"), None);
     }
 
-    /// Moving a byte between a path and its neighbour, or passing off a node as a leaf, must not give the
+    /// Moving a byte between a path and the adjacent field, or passing off a node as a leaf, must not result in the
     /// same hash.
     #[test]
     fn leaves_are_unambiguous() {

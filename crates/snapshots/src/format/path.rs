@@ -1,12 +1,13 @@
-//! The relative paths that a release may contain. Such a path denotes the same file on every system, and cannot lead
-//! outside the folder.
+//! The relative paths that a release may contain. Each of them denotes the same file on every system, and none leads
+//! outside the release folder.
 
 /// The maximum length of a path, in bytes.
 pub const MAX_PATH: usize = 255;
-/// The maximum number of components in a path: its folders and its file. Releases use up to four components.
+/// The maximum number of components in a path, counting its folders and its file. Releases use at most four
+/// components.
 pub const MAX_COMPONENTS: usize = 16;
 
-/// A reason why a release must not contain a path.
+/// A reason why a path is not allowed in a release.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathProblem {

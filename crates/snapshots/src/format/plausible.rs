@@ -1,4 +1,4 @@
-//! Checks of whether the versions stated in a manifest are plausible.
+//! Plausibility checks for the versions stated in a manifest.
 
 use crate::format::version::{CURRENT, MintedBy, VERSIONS, Version};
 

@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-/// A version of the suite, with the generation it mints and the semantics it replays.
+/// A version of the suite, with the generation that it mints and the semantics under which it replays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Version {
     /// The first version that mints these bytes, such as `0.11.0`. Its tag is `v0.11.0`.
@@ -56,7 +56,7 @@ const fn superseded(number: &'static str, generation: u32, semantics: u32, commi
 }
 
 impl Version {
-    /// Returns the known version that mints the given generation under the given semantics, if any.
+    /// Returns the known version, if any, that mints the given generation under the given semantics.
     pub fn that_mints(generation: u32, semantics: u32) -> Option<&'static Version> {
         VERSIONS.iter().find(|version| (version.generation, version.semantics) == (generation, semantics))
     }
@@ -86,8 +86,8 @@ fn install_command(revision: &str, folder: &str) -> String {
     format!("git fetch --tags && git checkout {revision} && cargo install --locked --path {folder}")
 }
 
-/// The version that minted a release, for messages. The version number is taken from the known versions if possible,
-/// and otherwise from the manifest.
+/// The version that minted a release, for use in messages. The version number comes from the table of known versions
+/// if possible, and otherwise from the manifest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MintedBy {
     /// The manifest's `version`, if its format has one.
@@ -99,8 +99,8 @@ pub struct MintedBy {
 }
 
 impl MintedBy {
-    /// Returns the commands that install the version; `None` if neither the manifest nor this binary states
-    /// it.
+    /// Returns the commands that install the version; `None` if neither the table of known versions nor the manifest
+    /// contains its number.
     pub fn install_command(&self) -> Option<String> {
         match (Version::that_mints(self.generation, self.semantics), &self.version) {
             (Some(known), _) => Some(known.install_command()),
@@ -121,8 +121,8 @@ impl fmt::Display for MintedBy {
     }
 }
 
-/// Returns `true` if a text is a version number, `MAJOR.MINOR.PATCH` in decimal digits, and is therefore safe
-/// in a suggested command.
+/// Returns `true` if a text is a version number (`MAJOR.MINOR.PATCH` in decimal digits) and therefore safe to insert
+/// into a suggested command.
 pub(crate) fn is_version_number(text: &str) -> bool {
     let is_number = |part: &str| {
         (1..=9).contains(&part.len())
@@ -189,7 +189,7 @@ mod tests {
             command(None, 10, 3),
             Some(format!("git fetch --tags && git checkout 5182d4800aab {install}"))
         );
-        // A later version is known only from its manifest.
+        // A version newer than this binary is known only from the manifest.
         assert_eq!(
             command(Some("0.99.0"), 99, 7),
             Some(format!("git fetch --tags && git checkout v0.99.0 {later}"))

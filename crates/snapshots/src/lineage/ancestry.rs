@@ -44,10 +44,10 @@ pub enum AncestryError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// The games and levels of a release that later releases must not repeat.
+/// The games and levels of a release, which later releases must not repeat.
 #[derive(Debug, Default)]
 pub(crate) struct Holdings {
-    /// The rules of the release's generated games, without names, in item order.
+    /// The rules of the release's generated games, with all names removed, in item order.
     games: Vec<String>,
     /// The mechanics, endings and couplings of the release's invented games.
     census: Census,
@@ -58,8 +58,8 @@ pub(crate) struct Holdings {
 }
 
 impl Holdings {
-    /// Reads the holdings of a sound release. Costs one pass over the release's games, and a few milliseconds per
-    /// game.
+    /// Reads the games and levels of a sound release. Cost: one pass over the release's games, and a few milliseconds
+    /// per game.
     ///
     /// # Errors
     /// Returns an error if a card, a game or a level is malformed or cannot be read.
@@ -94,13 +94,14 @@ impl Holdings {
         Ok(found)
     }
 
-    /// Returns the `known` field for a release that follows the release described by `manifest`. `self` must
-    /// contain the games and levels of the latter.
+    /// Returns the `known` field for a release that follows the release described by `manifest`, whose games and
+    /// levels `self` must contain.
     ///
     /// # Errors
     /// Returns an error if the manifest's own `known` field has a different version's format.
     pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
-        // Only this part of the recipe is read, so that recipes with keys of other versions can be followed.
+        // Only this part of the recipe is read, so that it is possible to follow recipes that contain keys of other
+        // versions.
         let mut known: Known = match manifest.recipe.get("known") {
             None => Known::default(),
             Some(known) => serde_json::from_value(known.clone()).map_err(AncestryError::Unreadable)?,

@@ -22,10 +22,11 @@ use base::Digest;
 use engine::SEMANTICS;
 use generators::GENERATION;
 
-/// The maximum number of releases, and also of other entries, in a folder that is searched for releases.
+/// The maximum number of releases, and the maximum number of other entries, in a folder that is searched for
+/// releases.
 pub const MAX_RELEASES: usize = 10_000;
 
-/// The properties of a release that matter for the chain.
+/// The facts about a release that matter for the chain.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Link {
     /// The release's name.
@@ -58,20 +59,20 @@ pub struct Chain {
     pub releases: Vec<Link>,
     /// `true` if the last release does not state a predecessor.
     pub complete: bool,
-    /// The number of other given releases, which are not part of the chain.
+    /// The number of given releases that are not part of the chain.
     pub others: usize,
     /// The problems; empty if the chain is complete and has no competing history.
     pub problems: Vec<String>,
 }
 
-/// Follows the roots from `start` back among the releases in `folders`, each of which is a release (folder or
-/// archive) or contains releases. Checks the integrity of all these releases. `start` must have been checked
-/// already.
+/// Follows the roots from `start` back through the releases in `folders`. Each folder is a release (folder or
+/// archive) or contains releases. The integrity of all these releases is checked, except that of `start`, which must
+/// have been checked already.
 ///
 /// A chain is sound if
 /// - every stated root is found, up to a release that does not state one;
-/// - no two of the given releases have the same name;
-/// - no two releases follow the same release in the chain, because the chain would then have two histories, and no
+/// - no two releases follow the same release in the chain, because the chain would then have two histories;
+/// - no release follows a missing release, because the missing release could belong to a second history;
 ///   release follows a missing release, because the missing release could belong to a second history;
 /// - each release in the chain lists the content of its predecessors, and repeats no part of that content.
 ///
@@ -123,11 +124,11 @@ fn check(place: &Path) -> Result<Result<Link, String>, SnapshotError> {
     }
 }
 
-/// Checks that each release in a chain lists the content of its predecessors, and repeats no part of that content.
-/// The releases are passed newest first.
+/// Checks that each release in a chain lists the content of its predecessors, and does not repeat any of it. The
+/// releases are passed newest first.
 ///
-/// `known` is compared as a whole if this version of arcade would write it in the same form. For releases of
-/// a different generation, only the names of their predecessors are compared.
+/// `known` is compared as a whole if the release has the current generation and semantics. For other releases, only
+/// the names of their predecessors are compared.
 pub(crate) fn history_problems(releases: &[Link]) -> Result<Vec<String>, SnapshotError> {
     let mut problems = Vec::new();
     let (mut forms, mut items) = (BTreeMap::new(), BTreeMap::new());
@@ -319,7 +320,7 @@ mod tests {
         let (one, two, three) = (link("1", "a", None), link("2", "b", Some("a")), link("3", "c", Some("b")));
         check(one.clone(), vec![], &["1"], true, &[]);
         check(three.clone(), vec![one.clone(), two.clone()], &["3", "2", "1"], true, &[]);
-        // The start is among the given releases, one release is given twice, and one release is unrelated.
+        // The start is among the given releases, one release is given twice, and one is unrelated.
         let given = vec![two.clone(), one.clone(), two.clone(), three.clone(), link("tiny", "t", None)];
         check(three.clone(), given.clone(), &["3", "2", "1"], true, &[]);
         assert_eq!(join(three.clone(), given, Vec::new()).others, 1);
@@ -327,7 +328,7 @@ mod tests {
         check(three.clone(), vec![two.clone()], &["3", "2"], false, &[&missing]);
     }
 
-    /// A release that follows an absent rival of release `2` is reported.
+    /// A release is reported if it follows a missing rival of release `2`.
     #[test]
     fn missing_predecessors_are_reported() {
         let (one, two) = (link("1", "a", None), link("2", "b", Some("a")));

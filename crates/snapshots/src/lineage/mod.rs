@@ -1,5 +1,4 @@
-//! A release's available ancestors, and the claims that can be checked even if some ancestors are
-//! unavailable.
+//! The available ancestors of a release, and the claims that can be checked even if other ancestors are unavailable.
 //!
 //! [`chain::follow`](crate::lineage::chain::follow) requires every release in a chain and judges every given
 //! release. In contrast, this module ends the chain at the first unavailable release and ignores releases
@@ -25,7 +24,7 @@ pub struct Ancestor {
     pub root: Digest,
     /// The release; `None` if it was not found.
     pub link: Option<Link>,
-    /// The reasons why the release found does not have the stated root; empty if the root matches, or if no
+    /// The reasons why the release that was found does not have the stated root. Empty if the root matches, or if no
     /// release was found.
     pub problems: Vec<String>,
 }
@@ -89,7 +88,7 @@ pub fn trace(
     Ok(Lineage { ancestors, complete, unread: candidates.unread, problems })
 }
 
-/// The releases among which ancestors are searched for.
+/// The releases that are searched for ancestors.
 struct Candidates {
     /// The release folders, with their stated roots.
     folders: Vec<(Digest, PathBuf)>,
@@ -132,8 +131,8 @@ impl Candidates {
         self.unread.push(format!("{error}{reason}"));
     }
 
-    /// Returns the release with the given root, preferably a sound one. If none is sound, returns the first
-    /// release that states this root, with its problems.
+    /// Returns the release with the given root, preferably a sound one. If none is sound, returns the first release
+    /// that states this root, with the problems found in it.
     fn find(&mut self, root: Digest) -> Ancestor {
         let mut damaged = None;
         let places: Vec<PathBuf> = self

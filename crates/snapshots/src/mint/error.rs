@@ -43,7 +43,7 @@ pub enum MintError {
         part: &'static str,
         /// The requested number of games.
         asked: usize,
-        /// The number of candidates that passed and are not duplicates.
+        /// The number of candidates that passed, not counting duplicates.
         there: usize,
         /// The reasons why the other candidates failed, or the games that they duplicate.
         why: String,
@@ -74,7 +74,7 @@ pub enum MintError {
         /// The recommended next step.
         advice: String,
     },
-    /// The drawn secret does not look random, which happens by chance only once in a billion.
+    /// The drawn secret does not look random. This happens by chance only once in a billion draws.
     #[error("the drawn secret is unusable: {0}; draw again")]
     Unlucky(String),
     /// A recipe section adds a part to games, but the part could not be created.

@@ -33,7 +33,7 @@ pub(super) struct Folder<'a, 'b> {
     canary: String,
     kind: ReleaseKind,
     items: Vec<Item>,
-    /// The games written so far, without texts or episodes.
+    /// The games written so far, without their texts and episodes.
     games: Vec<FrozenGame>,
 }
 
@@ -77,7 +77,8 @@ impl<'a, 'b> Folder<'a, 'b> {
         let won = levels.into_iter().zip(std::mem::take(&mut game.witnesses)).zip(paths).enumerate();
         for (number, ((level, episode), path)) in won {
             self.file(format!("{folder}/lvl{number}.txt"), level.as_bytes())?;
-            // An open release's seed is known, and all other seeds are derived from it.
+            // The paths are needed only in sealed releases. The seed of an open release is public, and all other
+            // seeds are derived from it.
             let path = if self.kind == ReleaseKind::Sealed { path } else { Vec::new() };
             let witness = Witness { canary: self.canary.clone(), episode, path };
             self.file(witness_path(self.kind, &game.card.id, number), &json(&witness)?)?;

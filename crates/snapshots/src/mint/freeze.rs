@@ -8,9 +8,9 @@ use forge::games::MadeGame;
 use validators::{Case, CheckedCriteria, Demand, shorter_win};
 
 impl FrozenGame {
-    /// Converts a generated game. `criteria` are its judges' criteria. If the criteria include a ladder, its
-    /// players play again with fresh seeds, because the episodes that led to a level's acceptance are biased
-    /// by luck. If `measured` is set, the tier of every level without a tier is measured.
+    /// Converts a generated game. `criteria` are the criteria of its judges. If they include a ladder, the ladder's
+    /// players play again with fresh seeds, because the episodes that led to a level's acceptance are biased by luck.
+    /// If `measured` is set, the tier of every level without a tier is measured.
     pub(super) fn of(mut made: MadeGame, criteria: &CheckedCriteria, measured: bool) -> FrozenGame {
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         let difficulties = ladders.map(|ladder| ladder.difficulty).collect();

@@ -15,7 +15,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// A store for the results of finished jobs, by name. It can be used from several threads.
+/// A store for the results of finished jobs, by job name. It can be used from several threads.
 pub trait JobStore: Sync {
     /// Returns a stored result; `None` if the result is missing or damaged.
     ///
@@ -59,8 +59,8 @@ pub struct JobFolder {
     is_secret: bool,
 }
 
-/// The file that records the plan to which the results belong, so that results from a different recipe are
-/// not discarded by mistake.
+/// The file that states the plan to which the results belong. It prevents results from a different recipe from being
+/// discarded by mistake.
 const WHOSE: &str = "plan.txt";
 
 /// The maximum size of a result file, in bytes: 64 MiB.
@@ -71,7 +71,7 @@ const JOB_LIMIT: u64 = 64 << 20;
 #[serde(deny_unknown_fields)]
 struct JobFile<T> {
     plan: Digest,
-    /// The digest of the result's canonical JSON, by which truncated or changed files are recognised and
+    /// The digest of the result's canonical JSON. It serves to recognise truncated or changed files, which are
     /// ignored.
     digest: Digest,
     result: T,
@@ -110,8 +110,8 @@ impl JobFolder {
         Ok(())
     }
 
-    /// Returns, for each name, `true` if a folder contains a result with that name. The folder may be absent,
-    /// and is not changed.
+    /// Returns, for each name, `true` if a folder contains a result with that name. The folder may be absent, and
+    /// existing files are not changed.
     ///
     /// # Errors
     /// Returns an error if the folder contains results from a different plan, or if a file system operation

@@ -43,12 +43,11 @@ pub struct Minted {
     pub card: ReleaseCard,
 }
 
-/// A warning about a request that can nevertheless be minted.
+/// A warning about a request that can be minted nevertheless.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Remark {
-    /// There are rules for at most the given number of new games, which is hardly more than the recipe
-    /// requests.
+    /// There are rule sets for at most the given number of new games, which is hardly more than the recipe requests.
     FewRules(usize),
     /// The shard has no jobs.
     EmptyShard,
@@ -69,15 +68,15 @@ impl fmt::Display for Remark {
 
 /// An observer of a mint, called from several threads. `()` ignores all events.
 pub trait Progress: Sync {
-    /// Called with each warning, before anything is written.
+    /// Receives each warning before anything is written.
     fn remark(&self, _remark: &Remark) {}
-    /// Called with the remaining jobs before they run. From this point on, the mint can be resumed.
+    /// Receives the remaining jobs before they run. From this point on, the mint can be resumed.
     fn start(&self, _plan: &Plan<'_>, _left: &[Job]) {}
-    /// Called with the total number of jobs, and the number of jobs already done.
+    /// Receives the total number of jobs, and the number of jobs already done.
     fn begin(&self, _jobs: usize, _made: usize) {}
-    /// Called when a job has finished.
+    /// Receives the name and the games of a job that has finished.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
-    /// Called when all jobs have finished, before the release or the shard is written.
+    /// Marks the end of all jobs. The release or the shard is written afterwards.
     fn finish(&self) {}
 }
 
@@ -118,7 +117,7 @@ pub fn make_jobs(
         progress.made(&name, &result.games);
         Ok(())
     };
-    // Long jobs come first. Jobs are taken one by one, each by the next thread that is free.
+    // Long jobs come first. Each free thread takes the next job.
     open.par_iter().with_max_len(1).try_for_each(make)
 }
 
@@ -158,8 +157,8 @@ pub fn lay_out(
     let mut folder = folder::Folder::new(plan, sink);
     for &taken in &taken {
         let Contender { job: of, at, .. } = contenders[taken];
-        // Without the steps from the secret to a witness's seed, the witness could not be checked after the
-        // reveal.
+        // A witness can be checked after the reveal only if the steps from the secret to the witness's seed are
+        // known.
         let is_traced = |game: &FrozenGame| !plan.is_sealed() || game.is_traced();
         let game = job(of)?.games.into_iter().nth(at).filter(is_traced);
         folder.game(game.ok_or_else(|| MintError::Unsound(plan.name(plan.jobs()[of])))?)?;
@@ -271,7 +270,7 @@ mod tests {
             .replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack")
             .replace("exit avatar > killSprite", "avatar exit > stepBack");
         let corpus = corpus(&[("fetch", FETCH), ("hopeless", &hopeless)]);
-        // Either game may be drawn first, so both orders must occur.
+        // Each of the two games must be drawn first for some seed.
         let mut first = Vec::new();
         for seed in ["a", "b", "c", "d", "e", "f"] {
             let recipe = recipe(seed);
@@ -325,7 +324,7 @@ mod tests {
         assert!(games[0].paths.iter().any(is_shorter), "{:?}", games[0].card.levels);
     }
 
-    /// A dry run's estimate differs by at most a quarter from the measurement in `docs/how-to/mint.md`.
+    /// The estimate of a dry run differs by at most a quarter from the cost stated in `docs/how-to/mint.md`.
     #[test]
     fn estimates_are_near_to_what_was_measured() {
         let page = include_str!("../../../../docs/how-to/mint.md");

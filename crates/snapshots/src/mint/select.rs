@@ -1,4 +1,4 @@
-//! Selection, which turns candidates into a release that is comparable with other months.
+//! The selection of candidates for a release that is comparable with other months.
 //!
 //! Every candidate has passed its judges, so any selection is sound. The selection meets the recipe's quotas
 //! and matches its difficulty histogram as closely as possible, by swapping games in and out from several
@@ -83,8 +83,8 @@ pub(super) struct Contender {
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// The titles and casts of the game and its sibling. Selection treats the two identically, so that its
-    /// choice reveals nothing about the secret coin that decides which of them is published.
+    /// The titles and casts of the game and its sibling. Selection treats the game and its sibling identically, so
+    /// that its choice reveals nothing about the secret coin that decides which of them is published.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
@@ -95,9 +95,9 @@ pub(super) struct Contender {
     pub(super) avatar: AvatarKind,
     pub(super) rules: usize,
     pub(super) form: GameForm,
-    /// The patterns of the game's origin.
+    /// The patterns from which the game was made.
     patterns: Vec<String>,
-    /// The canonical items: the rules with each level.
+    /// The canonical items. An item is the rules with one level.
     pub(super) items: Vec<Digest>,
 }
 
@@ -178,11 +178,12 @@ fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
 /// The number of random starts of the local search.
 const STARTS: u64 = 24;
 
-/// The amounts by which a selection misses the quotas and the histogram, and its number of duplicate titles.
+/// The amount by which a selection misses the quotas, the amount by which it misses the histogram, and its number of
+/// duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// Recommends the next step: a small change to the recipe that preserves finished jobs, or a different change
-/// that does not. A sealed recipe cannot be changed at all, because the commitment covers it.
+/// Recommends the next step: either a small change to the recipe that preserves finished jobs, or another change that
+/// does not. A sealed recipe cannot be changed at all, because the commitment covers it.
 fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     if recipe.commitment.is_some() {
         return format!(
@@ -192,8 +193,8 @@ fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     format!("{small} and continue with --resume, which keeps finished jobs; {other}, and start over")
 }
 
-/// Selects the requested number of contenders from each part, and returns their indices in order. The jobs'
-/// tallies serve to explain errors.
+/// Selects the requested number of contenders from each part, and returns their indices in order. The jobs' tallies
+/// are used to explain errors.
 ///
 /// # Errors
 /// Returns an error if there are too few contenders, or if no selection meets the quotas and, within one level per
@@ -234,7 +235,7 @@ pub(super) fn select(
         choice.improve();
         (choice.counts.miss(), start, choice.taken)
     };
-    // The best start is taken, or the first among equally good starts, regardless of which finishes first.
+    // The best result is taken, or the first among equally good results, regardless of which start finishes first.
     let best = (0..STARTS).into_par_iter().map(improved).min_by_key(|(miss, start, _)| (*miss, *start));
     let mut taken = best.map(|(_, _, taken)| taken).unwrap_or_default();
     taken.sort_unstable();
@@ -249,17 +250,17 @@ pub(super) fn select(
     Err(MintError::Uneven { candidates: fit.len(), missed, advice })
 }
 
-/// The contenders that may be selected together.
+/// The contenders that may be selected together, and the reasons for excluding the others.
 struct Fit {
     /// The indices of the contenders that may be selected together.
     fit: Vec<usize>,
-    /// For each part, the reasons why other contenders are excluded, with their counts.
+    /// The reasons why other contenders were excluded, with their counts, by part.
     dropped: BTreeMap<Part, BTreeMap<String, u64>>,
 }
 
 impl Fit {
-    /// Excludes contenders that occur in a previous release or contain a duplicate level. Also excludes
-    /// contenders that are near an earlier new contender, or share its idea, title or cast.
+    /// Excludes contenders that occur in a previous release or contain the same level twice. A new contender is also
+    /// excluded if it is near an earlier new contender, or shares its idea, title or cast.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -294,8 +295,8 @@ impl Fit {
     }
 }
 
-/// Returns the requirements for a selection, with the achieved figures. Difficulties may deviate by one
-/// level, but quotas are exact.
+/// Returns the requirements for a selection, with the achieved counts. Difficulties may be off by one level, but
+/// quotas are exact.
 pub(super) fn bins(recipe: &Recipe, contenders: &[Contender], taken: &[usize]) -> Vec<Bin> {
     let counts = Counts::of(recipe, taken.iter().map(|&at| &contenders[at]));
     let mut bins = Vec::new();
@@ -335,7 +336,7 @@ struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// Creates the initial selection from the first contenders in a given order.
+    /// Creates the initial selection, by taking the first contenders of each part in a given order.
     fn of(
         recipe: &'a Recipe,
         contenders: &'a [Contender],
@@ -388,7 +389,7 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// The figures of a selection for every requirement.
+/// The counts of a selection for every requirement.
 #[derive(Default)]
 struct Counts<'a> {
     histogram: Vec<(Difficulty, i64)>,
@@ -450,7 +451,7 @@ impl<'a> Counts<'a> {
         let mut labels: BTreeSet<Difficulty> = asked.keys().copied().collect();
         labels.extend(self.labels.keys());
         let there = |label: &Difficulty| self.labels.get(label).copied().unwrap_or_default();
-        // Squares spread the deviation over the bins.
+        // Squared deviations are summed, so that the deviation is spread over the bins.
         let histogram = match asked.is_empty() {
             true => 0,
             false => labels.iter().map(|label| apart(label, there(label)).pow(2)).sum(),

@@ -39,8 +39,8 @@ pub const SHARD_FILE: &str = "SHARD.json";
 /// The version of the shard format.
 const SHARD_FORMAT: u32 = 1;
 
-/// A slice of the jobs: `2/4` is the second of four slices. Jobs are dealt in turn, so that all slices take
-/// about the same time.
+/// A slice of the jobs: `2/4` is the second of four slices. Jobs are dealt to the slices in turn, so that all slices
+/// take about the same time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
@@ -95,9 +95,8 @@ impl Shard {
         plan.jobs().iter().copied().skip(self.number as usize - 1).step_by(self.of as usize).collect()
     }
 
-    /// Returns the shard in a folder, whatever its generation, and its recipe's name. Returns `None` unless
-    /// the folder contains exactly the files listed in its `SHARD.json`. Does not read the content of these
-    /// files.
+    /// Returns the shard in a folder, whatever its generation, and the name of its recipe. Returns `None` unless the
+    /// folder contains exactly the files listed in its `SHARD.json`. The content of these files is not read.
     pub fn at(folder: &Path) -> Option<(Shard, String)> {
         let bytes = folder::read(folder, SHARD_FILE, MANIFEST_LIMIT).ok()?;
         // Any generation is accepted: shards of an earlier generation can no longer be merged here, but they
@@ -112,8 +111,8 @@ impl Shard {
         is_whole.then_some((file.shard, file.recipe.name))
     }
 
-    /// Returns `true` if a folder contains this shard of the given plan, with all its files. Does not read the
-    /// content of these files.
+    /// Returns `true` if a folder contains this shard of the given plan, with all its files. The content of these
+    /// files is not read.
     ///
     /// # Errors
     /// Returns an error if the plan has no digest.
@@ -159,7 +158,7 @@ impl Shard {
     }
 }
 
-/// Returns the path of a job's file within a shard.
+/// Returns the path of a job's file in a shard.
 fn path(name: &str) -> String {
     format!("jobs/{name}.json")
 }
@@ -190,7 +189,7 @@ pub enum MergeError {
         /// The property in which the two shards differ.
         what: &'static str,
     },
-    /// Some shards of the release are missing.
+    /// Some of the release's shards are missing.
     #[error("shards are missing: {0}")]
     Missing(String),
     /// The jobs were not run from the recipe that the shards state.
@@ -272,9 +271,9 @@ impl Shards {
         Ok(Shards { recipe: head.recipe.clone(), plan: head.plan, shards, jobs })
     }
 
-    /// Makes all checks that are cheap compared with minting. Each shard must contain exactly the jobs that
-    /// the plan deals to it. Every game in the jobs must match its card, and its witnesses must replay to
-    /// wins on its own levels.
+    /// Makes all checks that are cheap compared with minting. Each shard must contain exactly the jobs that the plan
+    /// deals to it. Every game in the jobs must match its card, and the game's witnesses must replay to wins on its
+    /// own levels.
     ///
     /// Only minting again can show that the seed produces these games, and that the judges measured these figures.
     /// Costs a replay of every witness, on all threads of the current rayon pool.
@@ -318,7 +317,7 @@ impl Shards {
     }
 }
 
-/// Returns the first problem with a game in the results of a plan with the given root seed.
+/// Returns the first problem with a game in a job's result. `root` is the plan's root seed.
 fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();

@@ -1,4 +1,4 @@
-//! Operations on whole releases: minting into a folder, papers, the reveal, and minting again.
+//! Operations on whole releases: minting into a folder, papers, the reveal, and regeneration.
 
 pub(crate) mod order;
 pub(crate) mod papers;

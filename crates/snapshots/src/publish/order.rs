@@ -19,7 +19,7 @@ use crate::sections::marks::MarkPlayers;
 use base::Digest;
 use std::path::{Path, PathBuf};
 
-/// The resources that a program provides for minting.
+/// The resources for minting that a program provides.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
     /// The hand-written corpus games.
@@ -33,17 +33,16 @@ pub struct Tools<'a> {
 /// A release or shard to be minted into a folder.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// The recipe, including its parent and its beacon's value.
+    /// The recipe, which includes the parent and the beacon's value, if any.
     pub recipe: Recipe,
     /// A sealed release's secret.
     pub secret: Option<Secret>,
-    /// The output folder, which must be absent or empty. For a sealed release, it will contain two folders, `public`
-    /// and `held`.
+    /// The output folder, which must be absent or empty. A sealed release consists of two folders, `public` and
+    /// `held`, inside it.
     pub out: PathBuf,
     /// The shard; `None` for the whole release.
     pub shard: Option<Shard>,
-    /// `true` to keep the finished jobs of an interrupted mint, and to accept an existing result that is
-    /// complete.
+    /// `true` to reuse the finished jobs of an interrupted mint, and to accept a complete result that already exists.
     pub resume: bool,
 }
 
@@ -54,7 +53,7 @@ pub struct Prepared<'a> {
     pub plan: Plan<'a>,
     /// The jobs that the order requires.
     pub jobs: Vec<Job>,
-    /// `true` if the folder already contains the requested result, which only a resuming order accepts.
+    /// `true` if the folder already contains the requested result. Only an order with `resume` accepts this.
     pub is_complete: bool,
     order: &'a Order,
     tools: Tools<'a>,
@@ -99,7 +98,7 @@ impl Order {
         self.prepare(tools, progress)?.mint(progress)
     }
 
-    /// Returns `true` if the folder contains the result of this plan, or of the requested shard of it.
+    /// Returns `true` if the folder contains the result of this plan, or of the plan's requested shard.
     fn is_complete(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         if let Some(shard) = self.shard {
             return shard.is_whole(plan, &self.out);
@@ -157,10 +156,10 @@ impl Prepared<'_> {
 }
 
 impl Shards {
-    /// Merges the shards. The result is bit-identical to a release minted in one piece. `secret` is a sealed
-    /// release's secret.
+    /// Merges the shards. The result is bit-identical to a release minted in one piece. `secret` is the secret of a
+    /// sealed release.
     ///
-    /// Costs as much as [`Shards::check`], on all threads of the current rayon pool.
+    /// Cost: one [`Shards::check`], on all threads of the current rayon pool.
     ///
     /// # Errors
     /// Returns an error if a shard differs from its minted form, the folder `out` is occupied, or a file system
@@ -179,8 +178,8 @@ impl Shards {
     }
 }
 
-/// Draws the secret for a recipe's commitment ([`Recipe::to_commit`]). The recipe is planned first, because
-/// the commitment fixes all of it.
+/// Draws the secret for a recipe's commitment ([`Recipe::to_commit`]). The recipe is planned first, because the
+/// commitment fixes the whole recipe.
 ///
 /// # Errors
 /// Returns an error if the recipe cannot be minted with the given tools.
@@ -192,7 +191,7 @@ pub fn commit(
 ) -> Result<Secret, MintError> {
     let secret = Secret::draw(&recipe.name, recipe.committed(), random);
     secret.check().map_err(MintError::Unlucky)?;
-    // The beacon has no value yet, but the number of games that can be made hardly depends on it.
+    // The beacon has no value yet, but the value hardly affects the number of games that can be made.
     let minted = match &recipe.beacon {
         Some(_) => Recipe { seed: Some(secret.seed.clone()), beacon: None, ..recipe.clone() },
         None => Recipe { commitment: Some(secret.commitment()), ..recipe.clone() },

@@ -84,7 +84,7 @@ pub struct Compared {
     pub other_lockfile: bool,
 }
 
-/// A release that is to be minted again. Its jobs run like those of any other release
+/// A release that is to be minted again. Its jobs run like those of a new release
 /// ([`make_jobs`](crate::mint::make_jobs)).
 #[derive(Debug)]
 pub struct Regeneration {
@@ -96,8 +96,8 @@ pub struct Regeneration {
 }
 
 impl Regeneration {
-    /// Reads the recipe of the release in the folder `root`, and its secret if the release was revealed. Also
-    /// opens every file to be compared, so that an unreadable file is reported before the jobs run.
+    /// Reads the recipe of the release in the folder `root`, and the secret if the release was revealed. Also opens
+    /// every file to be compared, so that an unreadable file is reported before the jobs run.
     ///
     /// # Errors
     /// Returns an error if the folder is not a release, the release is damaged, or this binary cannot mint it.
@@ -132,17 +132,17 @@ impl Regeneration {
         let recipe: Recipe =
             serde_json::from_value(manifest.recipe.clone()).map_err(RegenerateError::NotARecipe)?;
         recipe.check()?;
-        // This fails before minutes of minting if the folder or one of its files cannot be read.
+        // If the folder or one of its files cannot be read, this fails early, before minting takes minutes.
         Comparison::of(root)?.open_all()?;
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
-    /// Returns the maximum number of forward-model calls per level that the recipe allows, in win searches
-    /// and in its players' episodes.
+    /// Returns the maximum number of forward-model calls per level that the recipe allows, in win searches and in the
+    /// episodes of its players.
     pub fn calls_per_level(&self) -> u64 {
         let of = |criteria: &Criteria| {
             let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
-            // Every player of a ladder plays one round, as patiently as allowed, before all budgets are spent.
+            // Every player of a ladder may play one round, with the maximum patience, before all budgets are spent.
             let names = criteria.ladder.iter().chain(&criteria.held_out);
             let names = names.filter(|_| criteria.includes(Criterion::Skill));
             let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
@@ -156,7 +156,7 @@ impl Regeneration {
         self.recipe.corpus.criteria.as_ref().map_or(0, of).max(of(&self.recipe.criteria))
     }
 
-    /// Creates the plan of the release's recipe.
+    /// Creates the plan for the release's recipe.
     ///
     /// # Errors
     /// Returns an error if the recipe cannot be minted with the given corpus.
@@ -186,9 +186,8 @@ impl Regeneration {
         Ok(Regenerated { minted, compared })
     }
 
-    /// Compares the release with the one in the folder `out`, if `out` is complete and was minted by this
-    /// version from the same recipe. Returns the manifest in `out` and the comparison. Does not mint
-    /// anything.
+    /// Compares the release with the one in the folder `out`, if the latter is complete and was minted by this
+    /// version from the same recipe. Returns the manifest in `out` and the comparison. Does not mint anything.
     ///
     /// # Errors
     /// Returns an error if `out` contains an unreadable manifest, or if a file system operation fails.
@@ -215,7 +214,7 @@ impl Regeneration {
     }
 }
 
-/// A comparison of the files in a folder with the minted files.
+/// A comparison of a folder's files with the minted files.
 struct Comparison<'a> {
     root: &'a Path,
     /// The files that have not yet been compared with a minted file.

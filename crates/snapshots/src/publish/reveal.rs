@@ -1,4 +1,4 @@
-//! The reveal of a sealed release, which joins its two parts.
+//! The reveal of a sealed release, which merges its two parts.
 
 use crate::contents::disclose::{LIST_LIMIT, disclose, salt_flaw};
 use crate::contents::integrity::check_integrity;
@@ -26,7 +26,7 @@ pub enum RevealError {
     /// The release is open, or has no commitment.
     #[error("`{0}` is not sealed: there is nothing to reveal")]
     Open(String),
-    /// The release has no wins chosen by coins.
+    /// The release has no wins that were chosen by coins.
     #[error(
         "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are \
          revealed with everything else; omit --solutions"
@@ -40,9 +40,9 @@ pub enum RevealError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// Merges the two parts of a sealed release, `public` and `held`, together with the papers into a draft, and
-/// returns the public part's manifest. The files must be exactly those under the root of that manifest. The
-/// secret must match the commitment, and the witnesses must have been played under that secret.
+/// Merges the two parts of a sealed release (`public` and `held`) and the papers into a draft, and returns the
+/// manifest of the public part. The files must be exactly those under that manifest's root. The secret must match the
+/// commitment, and the witnesses must have been played under that secret.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
@@ -120,7 +120,7 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     Ok(manifest)
 }
 
-/// Returns `true` if a withheld file is revealed together with the published coin wins.
+/// Returns `true` if a withheld file is revealed early, together with the published coin wins.
 fn is_early(path: &str) -> bool {
     is_solution(path) || path == HeldPart::Solutions.list()
 }

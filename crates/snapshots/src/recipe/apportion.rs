@@ -1,8 +1,8 @@
-//! Apportions an integer in proportion to weights.
+//! Apportionment of an integer in proportion to weights.
 
-/// Divides a number in proportion to weights (Hamilton's method). Each weight gets its quota, rounded down,
-/// and what is left goes to the largest remainders. Ties go to the earlier weight. If all weights are 0, all
-/// results are 0.
+/// Divides a number in proportion to weights (Hamilton's method). Each weight gets its quota, rounded down, and the
+/// rest goes to the largest remainders. If remainders are equal, the earlier weight comes first. If all weights are
+/// 0, all results are 0.
 pub(crate) fn apportion(number: u32, weights: &[f64]) -> Vec<u32> {
     let total: f64 = weights.iter().sum();
     if total <= 0.0 {

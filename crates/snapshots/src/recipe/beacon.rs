@@ -1,4 +1,4 @@
-//! Public randomness in a sealed release's seed, which prevents the publisher from choosing among secrets.
+//! Public randomness in the seed of a sealed release, which prevents the publisher from choosing among secrets.
 
 use crate::recipe::error::{RecipeError, wrong};
 use base::{Digest, Seed};
@@ -16,13 +16,14 @@ pub struct BeaconPart {
     pub source: String,
     /// The number of the round.
     pub round: u64,
-    /// The value of the round. It is filled in when the release is minted, and the commitment does not cover it.
+    /// The value of the round, which is filled in when the release is minted. The commitment does not cover the
+    /// value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Digest>,
 }
 
 impl BeaconPart {
-    /// Mixes the beacon's value into the seed of a secret; `None` if the value is not yet known.
+    /// Mixes the beacon's value into a secret's seed; `None` if the value is not yet known.
     pub(crate) fn mix(&self, seed: Seed) -> Option<Seed> {
         let value = self.value?;
         Some(seed.child(&format!("beacon {} {value}", self.source), self.round))
@@ -34,8 +35,8 @@ impl BeaconPart {
         recipe.get(BEACON).and_then(|part| serde_json::from_value(part.clone()).ok())
     }
 
-    /// Checks the beacon in a hand-written recipe. The release must be sealed, and the value must still be
-    /// unknown.
+    /// Checks the beacon in a hand-written recipe. The release must be sealed, and the recipe must not state the
+    /// value.
     pub(crate) fn check(&self, is_sealed: bool) -> Result<(), RecipeError> {
         if !is_sealed {
             return wrong(BEACON, "applies only to sealed releases: the seed of this release is public");

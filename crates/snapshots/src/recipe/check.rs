@@ -178,7 +178,7 @@ impl Recipe {
         Ok(())
     }
 
-    /// Checks the values that concern invented games.
+    /// Checks the values of the section `[invented]`.
     fn check_invented(&self) -> Result<(), RecipeError> {
         let Some(part) = &self.invented else { return Ok(()) };
         for (key, value, least, most) in [
@@ -254,7 +254,7 @@ impl Recipe {
     }
 }
 
-/// Checks the weights of methods.
+/// Checks the weights of generation methods.
 fn check_mix(key: &'static str, mix: Mix) -> Result<(), RecipeError> {
     let weights = [mix.constructive, mix.search, mix.evolutionary];
     match weights.iter().all(|weight| (0.0..=1e6).contains(weight)) && weights.iter().sum::<f64>() > 0.0 {

@@ -23,7 +23,8 @@ impl<'a> Cited<'a> {
         }
     }
 
-    /// Returns the authors: the people if there are any, else the publisher, else the programs' authors.
+    /// Returns the authors: the people if there are any, otherwise the publisher, and otherwise the authors of the
+    /// programs.
     pub(crate) fn authors(&self) -> Vec<&str> {
         match (self.authors, self.publisher) {
             ([], Some(publisher)) => vec![publisher],

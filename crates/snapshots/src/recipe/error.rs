@@ -13,7 +13,7 @@ pub enum RecipeError {
     /// line, column and key.
     #[error("{0}")]
     Syntax(Box<toml::de::Error>),
-    /// A key belongs to a different table, or to none.
+    /// A key belongs in a different table, or at the top level.
     #[error("{}\n{help}", .source.to_string().trim_end())]
     Misplaced {
         /// The error, with its position.
@@ -26,7 +26,7 @@ pub enum RecipeError {
     Value {
         /// The key, in dotted form.
         key: &'static str,
-        /// The unmet requirement.
+        /// The requirement that the value does not meet.
         message: String,
     },
     /// A criterion's value is out of range.
@@ -46,7 +46,7 @@ pub enum RecipeError {
          the commitment"
     )]
     OtherSecret,
-    /// The secret is correct, but the recipe has changed.
+    /// The secret is correct, but the recipe has been changed.
     #[error(
         "the recipe does not match its `commitment`: more than that line was changed after `--commit`; \
          {0}, or commit again with `arcade release RECIPE --commit`"

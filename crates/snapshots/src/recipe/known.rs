@@ -15,12 +15,13 @@ use validators::GameForm;
 pub struct Known {
     /// The names of the previous releases, oldest first.
     pub releases: Vec<String>,
-    /// The rules of the previous generated games, without names. They are stored in full, so that any later version
-    /// can compute the distance to a game.
+    /// The rules of the previous generated games, with all names removed. The rules are stored in full, so that any
+    /// later version can compute the distance to a game.
     pub games: Vec<String>,
     /// The canonical items (rules and level) of the previous corpus games.
     pub items: BTreeSet<Digest>,
-    /// The number of previous games that use each mechanic, ending and coupling of ports, such as `mechanic/lock`.
+    /// The number of previous games that use each mechanic (such as `mechanic/lock`), each ending, and each coupling
+    /// of ports.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub patterns: BTreeMap<String, u32>,
 }
@@ -53,8 +54,8 @@ impl Known {
     }
 }
 
-/// Returns the canonical item (rules and level) for a game's level. Levels that differ only in names, rule
-/// order or a board symmetry have equal canonical items.
+/// Returns the canonical item (rules and level) for a level of a game. Levels that differ only in names, rule order
+/// and board symmetry have equal canonical items.
 pub(crate) fn item(form: &GameForm, likeness: &LevelSimilarity, level: &engine::Level) -> Digest {
     Digest::of(format!("{} {}", form.digest(), likeness.digest(level)).as_bytes())
 }

@@ -35,11 +35,11 @@ pub struct Recipe {
     pub name: String,
     /// A description of the release, for its README.
     pub description: String,
-    /// The people to cite, in order. If neither people nor a publisher are given, the authors of Infinite Arcade are
-    /// cited.
+    /// The people to cite, in order. If the recipe states neither people nor a publisher, the authors of Infinite
+    /// Arcade are cited.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub authors: Vec<String>,
-    /// The laboratory or project that publishes the release. The release's title begins with its name.
+    /// The laboratory or project that publishes the release. The title of the release begins with this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub publisher: Option<String>,
     /// The text from which the seed is derived. It is public, so the release is open.
@@ -57,7 +57,7 @@ pub struct Recipe {
     /// New levels for corpus games.
     #[serde(default)]
     pub corpus: CorpusPart,
-    /// New games with levels.
+    /// New games from kernels, with levels.
     #[serde(default)]
     pub generated: GeneratedPart,
     /// Invented games.
@@ -78,16 +78,16 @@ pub struct Recipe {
     /// The sizes of the boards.
     #[serde(default)]
     pub board: Board,
-    /// The fraction of all levels that has each difficulty. If empty, any difficulty is accepted.
+    /// The fraction of all levels with each difficulty. If empty, any difficulty is accepted.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub difficulty: BTreeMap<Difficulty, f64>,
-    /// The fraction of all levels that is of each tier. If empty, tiers are not measured.
+    /// The fraction of all levels in each tier. If empty, tiers are not measured.
     #[serde(default, skip_serializing_if = "Tiers::is_empty")]
     pub tiers: Tiers,
-    /// The reference players, which never change. Their results on each level are kept in the release.
+    /// The reference players, which never change. The release contains their results on each level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<MarksPart>,
-    /// The coins for tests of memory: second renamings of games, second wins of levels.
+    /// The coins for memory tests, which decide between two renamings of a game or two wins of a level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryPart>,
     /// The quotas for kinds of games.
@@ -132,8 +132,8 @@ impl Recipe {
         }
     }
 
-    /// Returns advice on a mismatch between `secret` and the recipe, whose most likely cause is the recipe's
-    /// parent.
+    /// Returns advice on a mismatch between `secret` and the recipe. The most likely cause of a mismatch is the
+    /// recipe's parent.
     fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
@@ -194,7 +194,7 @@ impl Recipe {
         ((least * games - 1e-9).ceil() as i64, (most * games + 1e-9).floor() as i64)
     }
 
-    /// Returns the number of levels of all games.
+    /// Returns the total number of levels in all games.
     pub fn levels(&self) -> u32 {
         let parts = self.puzzle_parts().map(|part| (part.games, part.levels));
         let parts = parts
@@ -208,7 +208,7 @@ impl Recipe {
         self.corpus.games.saturating_add(self.new_games())
     }
 
-    /// Returns the number of games from generators.
+    /// Returns the number of games made by generators.
     pub fn new_games(&self) -> u32 {
         let invented = self.invented.as_ref().map_or(0, |part| part.games);
         let generated = self.generated.games.saturating_add(invented);

@@ -1,4 +1,4 @@
-//! The recipe parts that determine which games are generated: corpus games, generated games, and their kinds.
+//! The parts of a recipe that determine which games are minted: corpus games, generated games, and their kinds.
 
 use generators::games::Kind;
 use serde::{Deserialize, Serialize};
@@ -15,21 +15,21 @@ base::with_defaults! {
         pub games: u32 = 0,
         /// The number of levels per game, ordered from easiest to hardest.
         pub levels: u32 = 3,
-        /// The maximum number of attempts at a level set for one game.
+        /// The maximum number of attempts to make a set of levels for one game.
         pub game_tries: u32 = 8,
-        /// The maximum number of attempts at a level for one position.
+        /// The maximum number of attempts to make the level for one position.
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.5,
-        /// The criteria for the levels of corpus games, if they differ. Hand-made games are fewer than the games that
-        /// can be generated.
+        /// The criteria for the levels of corpus games, if they differ from those for new games. There are fewer
+        /// hand-made games than games that can be generated.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub criteria: Option<Criteria> = None,
     }
 }
 
 base::with_defaults! {
-    /// New games of kernels.
+    /// New games from kernels.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct GeneratedPart {
@@ -37,26 +37,27 @@ base::with_defaults! {
         pub games: u32 = 0,
         /// The number of levels per game, ordered from easiest to hardest.
         pub levels: u32 = 3,
-        /// The maximum number of attempts at a game for one candidate.
+        /// The maximum number of attempts to make a game for one candidate.
         pub game_tries: u32 = 48,
-        /// The maximum number of attempts at a level for one position.
+        /// The maximum number of attempts to make the level for one position.
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The shares of the methods in the candidates, which earlier versions had: kernels are only drawn.
+        /// The weights of the generation methods. Earlier versions searched for kernel games, but this version only
+        /// draws them, so weights other than `constructive` must be 0.
         pub mix: Mix = Mix::default(),
         /// The kinds of games; if empty, all kinds.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         pub kinds: Vec<Kind> = Vec::new(),
-        /// The minimum number of interactions of a game.
+        /// The minimum number of interactions in a game.
         pub least_interactions: usize = 7,
-        /// The minimum number of different interactions that the wins of all levels of a game execute.
+        /// The minimum number of different interactions that the wins on all levels of a game execute.
         pub least_mechanics: usize = 3,
     }
 }
 
 base::with_defaults! {
-    /// Invented games, whose rules merge several mechanics, on boards that a search finds for them.
+    /// Invented games. Their rules merge several mechanics, and a search finds boards for them.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct InventedPart {
@@ -66,7 +67,7 @@ base::with_defaults! {
         pub levels: u32 = 3,
         /// The maximum number of attempts at a rule set for one candidate.
         pub game_tries: u32 = 16,
-        /// The maximum number of searches for a board for one position.
+        /// The maximum number of searches for the board for one position.
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.5,

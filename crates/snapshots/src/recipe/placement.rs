@@ -24,8 +24,8 @@ fn table_with(key: &str, tables: &toml::Table) -> Option<String> {
     })
 }
 
-/// Returns advice on a known key that is in the wrong table; `None` for an unknown key. A common cause is a
-/// line appended to a file, which becomes part of the file's last table.
+/// Returns advice on a known key that is in the wrong table; `None` for an unknown key. A common cause is a line
+/// appended to a file, because the line becomes part of the last table.
 pub(crate) fn placement(error: &toml::de::Error, text: &str) -> Option<String> {
     let key = error.message().strip_prefix("unknown field `")?.split('`').next()?;
     let recipe: toml::Table = toml::from_str(text).ok()?;

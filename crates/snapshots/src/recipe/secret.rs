@@ -23,7 +23,7 @@ pub struct Secret {
     pub name: String,
     /// The text from which the seed is derived: 64 hexadecimal digits.
     pub seed: String,
-    /// The nonce, which prevents the seed from being guessed: 64 hexadecimal digits.
+    /// The nonce, which prevents guessing the seed: 64 hexadecimal digits.
     pub nonce: Digest,
     /// The digest of the recipe for which the secret was drawn ([`Recipe::committed`](crate::Recipe::committed));
     /// `None` in secrets from generations before [`COMMITS_TO_RECIPE_SINCE`], whose commitments cover only the seed
@@ -41,15 +41,16 @@ const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
 const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
 const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 
-/// The minimum number of different bytes, and of different byte-to-byte steps, in 32 random bytes. All but one in a
-/// billion drawn secrets reach this minimum, while a sequence with a period of at most 16 bytes does not.
+/// The minimum number of different bytes in 32 random bytes, and the minimum number of different steps from one byte
+/// to the next. All but one in a billion drawn secrets reach both minimums. A sequence with a period of at most 16
+/// bytes does not.
 const DISTINCT: usize = 17;
 
 impl Secret {
     /// Creates a recipe's secret from 64 random bytes, half of which form the seed and half the nonce.
     pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
-        // The bytes are hashed, so that even poor randomness gives the full length of output.
+        // The bytes are hashed, so that the output has its full length even if the randomness is poor.
         let hashed = |context, half| Digest::from_bytes(blake3::derive_key(context, half));
         Secret {
             name: name.to_owned(),
@@ -59,8 +60,8 @@ impl Secret {
         }
     }
 
-    /// Computes the digest over the seed, the nonce and the recipe, in its own domain. If the secret has no
-    /// recipe, the digest is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
+    /// Computes the digest of the seed, the nonce and the recipe's digest, in a domain of its own. If the secret has
+    /// no recipe, the digest is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
     pub fn commitment(&self) -> Digest {
         let Some(recipe) = self.recipe else {
             return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
@@ -73,8 +74,8 @@ impl Secret {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Derives the salt of a withheld part's list. It reveals nothing about the secret or the other part's
-    /// salt.
+    /// Derives the salt for the list of a withheld part. The salt reveals nothing about the secret or the other
+    /// part's salt.
     pub(crate) fn salt(&self, part: HeldPart) -> Digest {
         let mut hasher = blake3::Hasher::new_derive_key(SALT_CONTEXT);
         for part in [self.seed.as_bytes(), self.nonce.as_bytes(), part.list().as_bytes()] {
@@ -125,8 +126,8 @@ impl Secret {
         Ok(())
     }
 
-    /// Returns a sentence about the problem with the secret of a release that has the given manifest; `None`
-    /// if the secret matches the commitment.
+    /// Returns a sentence about the problem with the secret of the release with the given manifest; `None` if the
+    /// secret matches the commitment.
     ///
     /// # Errors
     /// Returns an error if the manifest's recipe has no canonical JSON.
@@ -209,7 +210,7 @@ fn parse(bytes: &[u8], file: &Path) -> Result<Secret, SnapshotError> {
     serde_json::from_slice(bytes).map_err(|source| SnapshotError::NotASecret { path, source })
 }
 
-/// The problem of a witness that was not played under the release's secret.
+/// The problem with a witness that was not played under the release's secret.
 pub(crate) const UNRELATED_WITNESS: &str = "the seed is not derived from the release's secret";
 
 #[cfg(test)]
@@ -315,7 +316,7 @@ mod tests {
         assert!(secret.leads_to(&witness, &json!({})));
         assert!(!Secret::draw("2027-01", Digest::of(b"recipe"), [8; 64]).leads_to(&witness, &json!({})));
         assert!(!secret.leads_to(&Witness { path: Vec::new(), ..witness.clone() }, &json!({})));
-        // A beacon without a value yields no seed, and a beacon with a value yields a different seed.
+        // A beacon without a value yields no seed. A beacon with a value changes the seed.
         for part in [
             json!({ "source": "s", "round": 1 }),
             json!({ "source": "s", "round": 1, "value": Digest::of(b"") }),

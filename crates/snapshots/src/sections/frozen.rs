@@ -9,7 +9,7 @@ use forge::card::Card;
 use serde::{Deserialize, Serialize};
 use validators::Difficulty;
 
-/// A job's result: its games, or no games if no candidate has passed.
+/// A job's result: its games, or no games if every candidate was rejected.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobResult {
@@ -25,7 +25,7 @@ pub struct JobResult {
 pub struct FrozenGame {
     /// The rules, preceded by the title.
     pub text: String,
-    /// The game's card. Its ladders come from episodes that neither the judges nor the selection have used.
+    /// The game's card. Its ladders come from episodes that were used neither by the judges nor for selection.
     pub card: Card,
     /// For each level, the difficulty that the judges measured, for use in selection; empty if no ladder was
     /// played.
@@ -50,13 +50,13 @@ pub struct FrozenGame {
 }
 
 impl FrozenGame {
-    /// Returns the titles and rules under which the game is known: its own and its sibling's.
+    /// Returns the titles and rules of the game and of its sibling, if any.
     pub(crate) fn guises(&self) -> impl Iterator<Item = (&str, &str)> {
         let sibling = self.sibling.iter().map(|sibling| (&*sibling.title, &*sibling.text));
         std::iter::once((&*self.card.title, &*self.text)).chain(sibling)
     }
 
-    /// Returns `true` if, for each of the game's episodes, the steps from the release's root seed are known.
+    /// Returns `true` if the steps from the release's root seed are known for each of the game's episodes.
     pub(crate) fn is_traced(&self) -> bool {
         let seconds = self.seconds.iter().flatten().map(|second| &second.path);
         !self.paths.iter().chain(seconds).any(Vec::is_empty)

@@ -12,8 +12,8 @@ use crate::format::manifest::Manifest;
 use puzzles::PuzzleKind;
 use section::Section;
 
-/// The sections, in the order in which they process a game. Reference players come last, so that they play
-/// the games under the published names.
+/// The sections, in the order in which they process a game. Reference players come last, because they must play the
+/// games under the published names.
 pub(crate) const SECTIONS: [&dyn Section; 7] = [
     &tiers::TiersSection,
     &PuzzleKind::Pushing,
@@ -24,7 +24,7 @@ pub(crate) const SECTIONS: [&dyn Section; 7] = [
     &marks::MarksSection,
 ];
 
-/// Returns the paths of the files that sections add to the release as a whole.
+/// Returns the paths of the files that sections add about the release as a whole.
 pub(crate) fn summary_paths(manifest: &Manifest) -> Vec<String> {
     SECTIONS.iter().filter_map(|section| section.summary_path(manifest)).collect()
 }

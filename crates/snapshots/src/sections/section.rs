@@ -1,4 +1,4 @@
-//! The hooks that minting and checking call on a section.
+//! The hooks of a section, which minting and checking call.
 
 use super::frozen::FrozenGame;
 use super::marks::MarkPlayers;
@@ -29,7 +29,7 @@ pub(crate) struct Making<'a> {
     pub(crate) players: Option<&'a dyn MarkPlayers>,
 }
 
-/// The cost of a job before the additions of sections.
+/// The cost of a job without the additions of sections.
 pub(crate) struct JobCost {
     /// The cost in core seconds.
     pub(crate) seconds: f64,
@@ -46,10 +46,10 @@ pub(crate) struct Writing<'a> {
     pub(crate) kind: ReleaseKind,
 }
 
-/// A section's file about the release as a whole, and its text for the README.
+/// A section's file about the release as a whole, and the section's text for the README.
 pub(crate) struct Summary {
     pub(crate) file: NewFile,
-    /// The end of the release's README. May be empty.
+    /// The text at the end of the release's README. May be empty.
     pub(crate) readme: String,
 }
 
@@ -59,7 +59,7 @@ pub(crate) struct Checking<'a> {
     pub(crate) manifest: &'a Manifest,
     /// The secret of a revealed sealed release.
     pub(crate) secret: Option<&'a Secret>,
-    /// The meter for replays; `None` if the witnesses have different semantics.
+    /// The meter for replays; `None` if the witnesses were recorded under different semantics.
     pub(crate) meter: Option<&'a Meter>,
 }
 
@@ -85,9 +85,10 @@ pub(crate) struct Found {
     pub(crate) problems: Vec<String>,
 }
 
-/// A recipe section. Every hook is called for every recipe, and does nothing if the recipe lacks the section.
+/// A recipe section. Every hook is called for every recipe, and does nothing if the section is missing from the
+/// recipe.
 pub(crate) trait Section: Sync {
-    /// The name of the section's table in a recipe.
+    /// Returns the name of the section's table in a recipe.
     fn name(&self) -> &'static str;
 
     /// Checks the section's values.
@@ -96,7 +97,7 @@ pub(crate) trait Section: Sync {
     /// Returns an error for the first value that is out of range.
     fn check(&self, recipe: &Recipe) -> Result<(), RecipeError>;
 
-    /// Adds the values that determine job results to the content of the plan's digest.
+    /// Adds the values that determine the results of jobs to the content covered by the plan's digest.
     fn decide(&self, recipe: &Recipe, decisive: &mut Map<String, Value>);
 
     /// Returns `true` if each level needs a tier.
@@ -129,7 +130,7 @@ pub(crate) trait Section: Sync {
         None
     }
 
-    /// Returns a game's files besides its rules, levels, card and witnesses. May remove secrets from the card.
+    /// Returns a game's files other than its rules, levels, card and witnesses. May remove secrets from the card.
     ///
     /// # Errors
     /// Returns an error if a file has no canonical JSON.

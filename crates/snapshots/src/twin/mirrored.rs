@@ -1,8 +1,8 @@
-//! The mirrored twin: the board and every direction in the rules, reflected left to right.
+//! The mirrored twin, in which the board and every direction in the rules are reflected left to right.
 //!
-//! A game without a mirror image is rejected with a reason, such as sprites whose class prefers a side or
-//! whose width is not one cell. Another reason is dependence on the order in which a row's sprites are
-//! processed. In games without randomness, this dependence is detected by playing both worlds side by side.
+//! A game without a mirror image is rejected with a reason. Examples are sprites whose class prefers a side, and
+//! sprites that are not one cell wide. Another reason is that the outcome depends on the order in which the sprites
+//! in a row are processed. In games without randomness, this is detected by playing both worlds side by side.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, replayed};
 use agents::{PortfolioConfig, Solution, solve};
@@ -14,16 +14,16 @@ use engine::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The number of ticks of a random episode for which the two worlds must agree.
+/// The number of ticks in a random episode during which the two worlds must agree.
 const TICKS: usize = 150;
 /// The number of random episodes on each level.
 const PLAYS: u64 = 2;
-/// The number of seeds with which to try a witness's mirrored actions in a stochastic game.
+/// The number of seeds with which a witness's mirrored actions are tried in a stochastic game.
 const CHANCES: u64 = 16;
 /// The budget for finding a new witness in a stochastic game, in forward-model calls.
 const CALLS: u64 = 50_000;
 
-/// The words to swap in the names of types that face a side.
+/// The words that are swapped in the names of types that face a side.
 const SIDES: [(&str, &str); 2] = [("left", "right"), ("west", "east")];
 
 pub(super) fn twin(original: &Original<'_>) -> Result<TwinGame, TwinError> {
@@ -128,8 +128,8 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the renamings of types that face a side and are named after it. For example, `westvane` and
-/// `eastvane` are swapped.
+/// Returns the new names of types that face a side and are named after it. For example, `westvane` and `eastvane` are
+/// swapped.
 fn swapped_names(game: &Game) -> BTreeMap<String, String> {
     let names: BTreeSet<&str> = game.sprite_types().map(|stype| game.name(stype)).collect();
     let swap = |stype: SpriteType| {
@@ -185,8 +185,8 @@ fn rules(game: &Game, names: &BTreeMap<String, String>) -> Result<Description, S
             };
         }
     }
-    // Types that face a side because of their class or by inheritance must explicitly get the opposite
-    // orientation.
+    // Types that face a side because of their class or by inheritance must be given the opposite orientation
+    // explicitly.
     for stype in misdirected(game, &rules)? {
         let facing = match mirrored_direction(game.orientation(stype)) {
             Direction::UP => "UP",
@@ -256,10 +256,10 @@ struct Worlds<'a> {
 }
 
 impl Worlds<'_> {
-    /// Plays actions in one world and their mirror images in the other, and compares the observations.
+    /// Plays actions in one world and the mirrored actions in the other, and compares the observations.
     ///
     /// # Errors
-    /// Returns the first tick, from 0, after which the two worlds differ.
+    /// Returns the number of the first tick, from 0, after which the two worlds differ.
     fn agree(&self, one: &Level, two: &Level, seed: Seed, actions: &[Action]) -> Result<(), usize> {
         let (mut left, mut right) = (self.one.start(one, seed), self.two.start(two, seed));
         for (tick, &action) in actions.iter().enumerate() {
@@ -287,8 +287,8 @@ impl Worlds<'_> {
     }
 }
 
-/// Searches for a winning episode on a level of a stochastic game. First tries the original's actions with
-/// other seeds, and then a search with a small budget.
+/// Searches for a winning episode on a level of a stochastic game. Tries the original's actions with other seeds
+/// first, and then searches with a small budget.
 fn another(analysis: &Analysis, level: &Level, known: &Episode, seed: Seed) -> Option<Episode> {
     let game = analysis.game();
     for chance in 0..CHANCES {
@@ -403,7 +403,7 @@ mod tests {
         );
     }
 
-    /// Only one raft can exist. The first boat in the row spawns it, and in the mirror image, the other boat
+    /// Only one raft can exist, and it is spawned by the first boat in the row. In the mirror image, the other boat
     /// is first.
     #[test]
     fn games_that_depend_on_the_order_in_a_row_are_refused() {

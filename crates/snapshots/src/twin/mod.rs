@@ -1,5 +1,5 @@
-//! Twins: games with the same mechanics under a different theme. They help to test whether a model remembers
-//! a game or understands it ([the properties of each kind](../../../../docs/how-to/twins.md)).
+//! Twins: games with the same mechanics under a different theme. They help to test whether a model understands a game
+//! or only remembers it ([the properties of each kind](../../../../docs/how-to/twins.md)).
 
 mod mirrored;
 mod released;
@@ -56,7 +56,7 @@ pub struct TwinGame {
     pub witnesses: Vec<Option<Episode>>,
     /// The twin's title.
     pub title: String,
-    /// A description of the player and the rest of the game, as far as the surface reveals it.
+    /// A description of the player and of the rest of the game, as far as the twin's surface reveals them.
     pub description: String,
     /// The goal, as one sentence.
     pub goal: String,
@@ -88,9 +88,9 @@ pub enum TwinError {
     NoTheme(#[from] GenerateError),
 }
 
-/// Creates a game's twin, with the same mechanics, level by level. `witnesses` are the levels' winning
-/// episodes in level order. There may be fewer witnesses than levels. The same arguments produce the same
-/// twin.
+/// Creates a game's twin, with the same mechanics and one level for each level of the game. `witnesses` are the
+/// winning episodes of the levels, in level order. There may be fewer witnesses than levels. The same arguments
+/// produce the same twin.
 ///
 /// Cost: well under a second, unless a witness search is needed.
 ///
@@ -106,7 +106,7 @@ pub fn of_game(
     of_levels(kind, source, levels, known)
 }
 
-/// Creates a twin like [`of_game`], except that any level may lack a witness.
+/// Creates a twin like [`of_game`], but any level may lack a witness.
 fn of_levels(
     kind: Twin,
     source: &str,
@@ -122,8 +122,8 @@ fn of_levels(
     }
 }
 
-/// Creates a renamed twin from the caller's seed instead of a publicly known one. Also returns the name of
-/// the twin's scene.
+/// Creates a renamed twin from the caller's seed, instead of the publicly known one. Also returns the name of the
+/// twin's scene.
 pub(crate) fn renamed(
     source: &str,
     levels: &[String],
@@ -144,7 +144,7 @@ struct Original<'a> {
 }
 
 impl<'a> Original<'a> {
-    /// Loads a game with an optional witness for each level.
+    /// Loads a game whose levels may each have a witness.
     fn load(
         source: &str,
         levels: &[String],
@@ -164,7 +164,7 @@ impl<'a> Original<'a> {
         Seed::from_text(&format!("twin {} of {}", kind.name(), self.game.digest()))
     }
 
-    /// Returns the title that releases place above the rules.
+    /// Returns the title, which releases place above the rules.
     fn title(&self) -> Option<String> {
         let comments = self.game.description().header.trivia.above.iter().map(|line| line.trim());
         comments.filter(|line| !line.is_empty() && !line.starts_with(CANARY)).map(str::to_owned).next()
@@ -189,18 +189,18 @@ impl<'a> Original<'a> {
     }
 }
 
-/// The prefix of the comments that mark a text as excluded from training.
+/// The prefix of the comments that state that a text must not be used for training.
 const CANARY: &str = "canary ";
 
-/// A twin without its title and text, and its compiled game.
+/// A twin whose title and text are still missing, and its compiled game.
 struct Made {
     twin: TwinGame,
     game: Game,
 }
 
 impl Made {
-    /// Creates a twin from rules. In these rules, the image of an action must have the same effect as the
-    /// action itself has in the original.
+    /// Creates a twin from rules. In these rules, the image of an action must have the same effect as the action
+    /// itself in the original.
     fn of(
         original: &Original<'_>,
         rules: &Description,
@@ -223,12 +223,12 @@ impl Made {
         Ok(Made { twin, game })
     }
 
-    /// Returns a meaningless title.
+    /// Returns a title without meaning, which is derived from the game's digest.
     fn plain_title(&self) -> String {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// Adds the text, preceded by the title and, if the original has one, by its canary.
+    /// Completes the twin with its text, preceded by the title and by the original's canary if there is one.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));

@@ -3,7 +3,7 @@
 use super::{Made, Original, Twin, TwinError, TwinGame, of_levels};
 use crate::released::{ReleasedGame, ReleasedSibling};
 
-/// The words that indicate a side. (`left` is not among them, because it mostly means "remaining".)
+/// The words that indicate a side, except `left`, which mostly means "remaining".
 const SIDES: [&str; 7] = ["leftward", "leftwards", "right", "rightward", "rightwards", "west", "east"];
 
 /// Creates a released game's twin. A mirrored twin keeps the texts on the game's card unless they mention a
@@ -30,7 +30,7 @@ pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, Twin
     Ok(twin)
 }
 
-/// Creates the twin that is a game's sibling, with the game's witnesses.
+/// Creates the twin from a game's sibling, with the game's witnesses.
 fn of_sibling(released: &ReleasedGame, sibling: &ReleasedSibling) -> Result<TwinGame, TwinError> {
     let original = Original {
         game: sibling.game.clone(),

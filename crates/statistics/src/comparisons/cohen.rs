@@ -4,9 +4,8 @@
 /// Returns Cohen's h, `2 asin √p − 2 asin √q`, within [−π, π]. By convention, an h of 0.2 is small, 0.5 is
 /// medium, and 0.8 is large.
 ///
-/// The arcsine transformation makes the variance of a proportion from `n` trials about `1 / n`, whatever the
-/// proportion. Equal values of h are therefore equally hard to detect. Returns NaN if a value is not a
-/// proportion.
+/// The arcsine transformation gives a proportion from `n` trials a variance of about `1 / n`, regardless of the
+/// proportion. Equal values of h are therefore equally hard to detect. Returns NaN if a value is not a proportion.
 ///
 /// ```
 /// use infinite_arcade_statistics::cohens_h;
@@ -25,8 +24,7 @@ pub(crate) fn angle(p: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The test vectors come from `spec/06` §3.1. The additional digits were computed with decimal
-    /// arithmetic.
+    /// The test vectors come from `spec/06` §3.1. Additional digits were computed with decimal arithmetic.
     #[test]
     #[expect(clippy::approx_constant, reason = "printed like the others")]
     fn published_vectors() {

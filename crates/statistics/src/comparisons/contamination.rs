@@ -1,8 +1,8 @@
 //! Exact memory tests, which detect players that have memorised published content.
 //!
-//! A coin toss decided which of two items was published. The items are two renamings of a game, or two
-//! winning episodes on a level. Only a player that knows the published item can tell which one it is. For any
-//! other player, either side was equally likely to be the published one, whatever the results on the two
+//! A coin toss decided which of two items was published. The items are two renamings of a game, or two winning
+//! episodes on a level. Only a player that knows the published item can tell which one it is. For any other player,
+//! either item was equally likely to be published, regardless of the player's results.
 //! sides.
 //!
 //! The distribution of the sum of the differences is therefore known without any assumption about players or
@@ -24,9 +24,9 @@ pub struct CoinTest {
     pub informative: usize,
 }
 
-/// Tests whether a player's results depend on which side was published. `differences` contains, for each
-/// coin, the result on the published side minus the result on the sealed side. A result is a number of wins,
-/// or of episodes that begin like the side's witness. Both sides must have the same number of episodes.
+/// Tests whether a player's results depend on which side was published. For each coin, `differences` contains the
+/// result on the published side minus the result on the sealed side. A result is a number of wins, or the number of
+/// episodes that begin like that side's witness. Both sides must have the same number of episodes.
 ///
 /// Cost: O(coins · sum of the absolute differences).
 ///
@@ -40,8 +40,8 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     let sum = differences.iter().sum();
     let sizes: Vec<usize> =
         differences.iter().filter(|&&one| one != 0).map(|one| one.unsigned_abs() as usize).collect();
-    // `chances` holds the probability of each sum of the sizes on the published side. The other sizes are on
-    // the sealed side.
+    // `chances` contains the probability of each total, where each of the sizes either counts towards the total
+    // (published side) or does not (sealed side).
     let mut chances = vec![1.0];
     for &size in &sizes {
         let mut next = vec![0.0; chances.len() + size];
@@ -56,9 +56,9 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     CoinTest { p: p.min(1.0), sum, informative: sizes.len() }
 }
 
-/// Returns the power of [`coin_test`] at level `alpha` for the given number of coins, each with one episode
-/// per side. A coin favours the published side with probability `more`, and the sealed side with probability
-/// `less`. Returns NaN unless both values are probabilities with a sum of at most 1. Cost: O(coins²).
+/// Returns the power of [`coin_test`] at level `alpha`, for the given number of coins with one episode per side. A
+/// coin favours the published side with probability `more`, and the sealed side with probability `less`. Returns NaN
+/// unless both are probabilities with a sum of at most 1. Cost: O(coins²).
 pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
     if !(0.0..=1.0).contains(&more) || !(0.0..=1.0).contains(&less) || more + less > 1.0 + 1e-12 {
         return f64::NAN;
@@ -79,7 +79,7 @@ pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
     (0..=coins).map(|count| informative[count as usize] * detected(count)).sum::<f64>().min(1.0)
 }
 
-/// Returns the binomial probability for each number of successes.
+/// Returns the binomial probability of each number of successes, from 0 to `trials`.
 fn binomial(trials: u64, p: f64) -> Vec<f64> {
     if p <= 0.0 || p >= 1.0 {
         let mut sure = vec![0.0; trials as usize + 1];
@@ -108,8 +108,8 @@ pub struct Memoriser {
 }
 
 impl Memoriser {
-    /// Returns two probabilities: that the player wins only the published sibling of a level, and that the
-    /// player wins only the sealed sibling.
+    /// Returns the probability that the player wins only the published sibling of a level, and the probability that
+    /// the player wins only the sealed sibling.
     pub fn sibling_chances(&self, spread: Spread) -> (f64, f64) {
         let ability = spread.ability(self.clean);
         let square =
@@ -127,8 +127,8 @@ impl Memoriser {
         (more / sum, less / sum)
     }
 
-    /// Returns two probabilities: that an episode begins like the published witness, and that it begins like
-    /// the sealed witness. Without memory, both probabilities are `by_chance`.
+    /// Returns the probability that an episode begins like the published witness, and the probability that it begins
+    /// like the sealed witness. Without memory, both are `by_chance`.
     pub fn prefix_chances(&self, by_chance: f64) -> (f64, f64) {
         let less = (1.0 - self.share) * by_chance;
         (self.share + less, less)
@@ -139,7 +139,7 @@ impl Memoriser {
 mod tests {
     use super::*;
 
-    /// The p-value matches an enumeration of all coin outcomes.
+    /// The p-value matches an enumeration of the outcomes of all coin tosses.
     #[test]
     fn every_fall_counted() {
         let differences = [3, -1, 0, 2, 1, -2, 1];
@@ -186,8 +186,8 @@ mod tests {
         assert!((more - 0.24).abs() < 1e-12 && (less - 0.04).abs() < 1e-12);
     }
 
-    /// The prefix test detects a player that has memorised a fifth of the levels. The sibling test detects a
-    /// player that has memorised half of the levels.
+    /// The prefix test detects a player that has memorised a fifth of the levels. The sibling test needs a player
+    /// that has memorised half of the levels.
     #[test]
     fn power_of_planned_tests() {
         let fifth = Memoriser { share: 0.2, known: 0.9, clean: 0.27 };

@@ -1,9 +1,9 @@
 //! Corrections for multiple tests (Y. Benjamini and Y. Hochberg, "Controlling the false discovery rate", 1995; C. E.
 //! Bonferroni, "Teoria statistica delle classi e calcolo delle probabilità", 1936).
 
-/// Returns the Benjamini–Hochberg adjusted values (q-values) for `p`, in the same order. If every null
-/// hypothesis with a q-value of at most 5% is rejected, the expected fraction of false rejections is at most
-/// 5%. No adjusted value exceeds 1. Cost: O(n log n).
+/// Returns the Benjamini–Hochberg adjusted p-values (q-values) for `p`, in the same order. If every null hypothesis
+/// with a q-value of at most 5% is rejected, the expected fraction of false rejections is at most 5%. No q-value
+/// exceeds 1. Cost: O(n log n).
 ///
 /// All results are NaN if a value is not a probability.
 ///
@@ -27,9 +27,9 @@ pub fn benjamini_hochberg(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// Returns the Bonferroni adjusted values for `p`, in the same order. If every null hypothesis with an
-/// adjusted value of at most 5% is rejected, the probability of any false rejection is at most 5%. No adjusted
-/// value exceeds 1. Cost: O(n).
+/// Returns the Bonferroni adjusted p-values for `p`, in the same order. If every null hypothesis with an adjusted
+/// value of at most 5% is rejected, the probability of one or more false rejections is at most 5%. No adjusted value
+/// exceeds 1. Cost: O(n).
 ///
 /// All results are NaN if a value is not a probability.
 ///

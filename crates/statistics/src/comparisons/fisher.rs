@@ -1,17 +1,16 @@
 //! Fisher's exact test for equal success rates in two groups (R. A. Fisher, "On the interpretation of χ² from
 //! contingency tables, and the calculation of P", 1922).
 //!
-//! The hypergeometric probabilities are computed from the ratios of neighbouring probabilities, using only
-//! `*`, `/` and sums in a fixed order. Logarithms of factorials are avoided, because their last bits differ
-//! between platforms.
+//! The hypergeometric probabilities are computed from the ratios of adjacent probabilities, using only `*`, `/` and
+//! sums in a fixed order. Logarithms of factorials are avoided, because their last bits differ between platforms.
 
-/// The factor by which a table may appear more likely than the observed table and still count as equally
-/// likely. It is larger than rounding errors, but smaller than any true difference between tables of counts
-/// that fit in memory.
+/// The factor by which a table may seem more likely than the observed table because of rounding errors, and still
+/// count as equally likely. It is smaller than any true difference between tables of counts that fit in memory.
 pub(crate) const SAME: f64 = 1.0 + 1e-7;
 
-/// Returns the two-sided p-value for `successes` among `trials` in two groups. The p-value is the total
-/// probability of all tables with the same totals that are no more likely than the observed table.
+/// Returns the two-sided p-value for equal success rates, given the `successes` among the `trials` of two groups. The
+/// p-value is the total probability of all tables with the same totals that are no more likely than the observed
+/// table.
 ///
 /// Returns 1 if there is nothing to compare: no trials, only successes, or no successes. Returns NaN if a
 /// group has more successes than trials. Cost: O(number of tables with these totals), which is at most the
@@ -80,7 +79,7 @@ mod tests {
     fn check(n: u64, a: u64, b: u64, expect: f64) {
         for (a, b) in [(a, b), (b, a), (n - a, n - b)] {
             let p = fisher([a, b], [n, n]);
-            // The result must equal the ten digits printed in the specification.
+            // The result must match the ten digits printed in the specification.
             assert!((p - expect).abs() <= 5.1e-10 * expect, "{a} and {b} of {n}: {p}, not {expect}");
         }
     }
@@ -124,9 +123,9 @@ mod tests {
         }
     }
 
-    /// The expected values were calculated by hand. The totals allow 0, 1 or 2 successes in the first group,
-    /// with 10, 20 and 6 of 36 equally likely cases. The tables with at most 10 cases have 16 cases in total,
-    /// and those with at most 6 cases have 6.
+    /// The expected values were calculated by hand. Given the totals, the first group has 0, 1 or 2 successes in 10,
+    /// 20 and 6 of 36 equally likely cases. The tables with at most 10 cases have 16 cases in total, and those with
+    /// at most 6 cases have 6.
     #[test]
     fn groups_of_different_size() {
         for (k, expect) in [(0, 16.0 / 36.0), (1, 1.0), (2, 6.0 / 36.0)] {

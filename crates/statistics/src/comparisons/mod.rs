@@ -1,4 +1,4 @@
-//! Comparisons of two groups or two measures: tests, effect sizes and corrections.
+//! Comparisons between two groups or two measures: tests, effect sizes and corrections.
 
 pub(crate) mod cohen;
 pub(crate) mod contamination;

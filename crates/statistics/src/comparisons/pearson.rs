@@ -3,8 +3,8 @@
 
 use crate::student::student_p;
 
-/// Returns Pearson's correlation for pairs of values, from −1 to 1. Returns `None` if there are fewer than
-/// two pairs, if all values on one side are equal, or if a value is not finite. Cost: O(n).
+/// Returns Pearson's correlation over pairs of values, from −1 to 1. Returns `None` if there are fewer than two
+/// pairs, if all first values or all second values are equal, or if a value is not finite. Cost: O(n).
 ///
 /// ```
 /// use infinite_arcade_statistics::pearson;
@@ -27,13 +27,12 @@ pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
     (spread > 0.0).then(|| (product(|x, y| x * y) / spread).clamp(-1.0, 1.0))
 }
 
-/// Returns the two-sided p-value for a correlation `r` between `pairs` pairs: the probability that unrelated
-/// pairs correlate at least as strongly. Returns `None` if there are fewer than three pairs, or if `r` is not
-/// within −1..=1.
+/// Returns the two-sided p-value for a correlation `r` over `pairs` pairs, which is the probability that unrelated
+/// pairs correlate at least as strongly. Returns `None` if there are fewer than three pairs, or if `r` is not within
+/// −1..=1.
 ///
-/// For [`pearson`], the p-value is exact if one side is normally distributed. For
-/// [`spearman`](crate::spearman), the p-value is an approximation that is accurate for about ten or more
-/// pairs.
+/// For [`pearson`], the p-value is exact if the first or the second values are normally distributed. For
+/// [`spearman`](crate::spearman), the p-value is an approximation that is accurate for about ten or more pairs.
 ///
 /// ```
 /// use infinite_arcade_statistics::correlation_p;
@@ -71,8 +70,7 @@ mod tests {
         close(correlation_p(ordered, 8).unwrap(), 0.00748355217395917);
     }
 
-    /// The six correlations come from `spec/06` §5.5, over 2250 episodes. The smallest p-values are about
-    /// 1e-238.
+    /// The six correlations over 2250 episodes come from `spec/06` §5.5. The smallest p-values are about 1e-238.
     #[test]
     fn published_corrections() {
         let r = [0.21, -0.28, -0.18, -0.10, 0.30, 0.62];

@@ -1,9 +1,9 @@
 //! The rank correlation between two measures (C. Spearman, "The proof and measurement of association between
 //! two things", 1904).
 
-/// Returns Spearman's rank correlation for pairs of values, from −1 to 1: the correlation between their
-/// ranks. Equal values share their mean rank. Returns `None` if there are fewer than two pairs, if all values
-/// on one side are equal, or if a value is NaN. Cost: O(n log n).
+/// Returns Spearman's rank correlation over pairs of values, from −1 to 1, which is the correlation between the
+/// ranks. Equal values share their mean rank. Returns `None` if there are fewer than two pairs, if all first values
+/// or all second values are equal, or if a value is NaN. Cost: O(n log n).
 ///
 /// ```
 /// use infinite_arcade_statistics::spearman;

@@ -1,16 +1,15 @@
-//! A stratified test that compares two players level by level. Pooling levels of different difficulty can
-//! hide or create a difference. This test compares only episodes on the same level, and sums the evidence (N.
-//! Mantel and W. Haenszel, "Statistical aspects of the analysis of data from retrospective studies of
+//! A stratified test that compares two players level by level. Pooling levels of different difficulty can hide a
+//! difference, or create one that does not exist. This test compares only episodes on the same level, and sums the
+//! evidence (N. Mantel and W. Haenszel, "Statistical aspects of the analysis of data from retrospective studies of
 //! disease", 1959).
 //!
-//! The test is exact. For given totals on every level, all assignments of wins to episodes are equally
-//! likely. One side's number of wins is therefore a sum of independent hypergeometric variables, whose
-//! distribution is computed exactly. A permutation test within strata would estimate the same distribution by
-//! sampling.
+//! The test is exact. Given the totals on every level, all assignments of wins to episodes are equally likely. One
+//! side's number of wins is therefore a sum of independent hypergeometric variables, whose distribution is computed
+//! exactly. A permutation test within strata would estimate the same distribution by sampling.
 
 use super::fisher::{SAME, Tables, ascending};
 
-/// The success and trial counts of two groups on one level.
+/// The numbers of successes and trials of two groups on one level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stratum {
     /// The number of successes in each group.
@@ -22,16 +21,14 @@ pub struct Stratum {
 /// The comparison of two groups over all levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stratified {
-    /// The two-sided exact p-value. With a single stratum, the p-value equals the result of
-    /// [`fisher`](super::fisher).
+    /// The two-sided exact p-value. With a single stratum, it equals the result of [`fisher`](super::fisher).
     pub p: f64,
     /// The first group's rate minus the second group's rate, as a weighted mean over the levels. The weights,
     /// from Mantel and Haenszel, are based on the harmonic means of the numbers of trials. `None` if no level
     /// has trials in both groups.
     pub difference: Option<f64>,
-    /// Mantel and Haenszel's estimate of the common odds ratio: the first group's odds divided by the second
-    /// group's. The ratio is infinite if all evidence favours the first group, and `None` if there is no
-    /// evidence for either group.
+    /// Mantel and Haenszel's estimate of the common odds ratio: the first group's odds divided by the second group's.
+    /// Infinite if all evidence favours the first group; `None` if there is no evidence for either group.
     pub odds_ratio: Option<f64>,
 }
 
@@ -77,7 +74,7 @@ pub fn stratified(strata: &[Stratum]) -> Stratified {
     }
 }
 
-/// Returns the weight for each sum of two independent numbers, relative to the most likely sum.
+/// Returns the weight of each sum of two independent numbers, relative to the most likely sum.
 fn convolved(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; a.len() + b.len() - 1];
     for (i, a) in a.iter().enumerate() {
@@ -108,8 +105,8 @@ mod tests {
         }
     }
 
-    /// Checks a case with two levels, each with one trial per side and one win. The first side has 0, 1 or 2
-    /// wins with probabilities of 1/4, 2/4 and 1/4.
+    /// Checks two levels, each with one win and one trial per side. The first side has 0, 1 or 2 wins with
+    /// probabilities of 1/4, 2/4 and 1/4.
     #[test]
     fn worked_by_hand() {
         let found = stratified(&[stratum(1, 1, 0, 1), stratum(1, 1, 0, 1)]);

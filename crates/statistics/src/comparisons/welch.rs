@@ -29,7 +29,7 @@ pub fn welch(ours: &[f64], theirs: &[f64]) -> Option<Welch> {
         return None;
     }
     let t = (a.mean - b.mean) / square.sqrt();
-    // Fractions are used, because small squares would underflow when they are squared again.
+    // Dividing first prevents underflow, which squaring the small squares again would cause.
     let (share, rest) = (a.square / square, b.square / square);
     let df = 1.0 / (share * share / a.df + rest * rest / b.df);
     Some(Welch { t, df, p: student_p(t, df) })
@@ -93,7 +93,7 @@ mod tests {
         );
     }
 
-    /// If one side has no variance, the test reduces to a t test of the other side's mean.
+    /// If one side has no variance, the test reduces to a t test on the other side's mean.
     #[test]
     fn one_side_is_sure() {
         let found = welch(&[1.0, 2.0, 3.0], &[0.1, 0.1, 0.1]).unwrap();

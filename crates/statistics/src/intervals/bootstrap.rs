@@ -1,19 +1,19 @@
 //! Percentile bootstrap intervals for statistics without a formula (B. Efron, "Bootstrap methods: another
 //! look at the jackknife", 1979).
 //!
-//! The random numbers come from ChaCha8, and are bounded by Lemire's method. Both algorithms are fixed, so
-//! the same seed gives the same interval everywhere.
+//! The random numbers come from ChaCha8, and Lemire's method maps them to a range. Both algorithms are fixed, so the
+//! same seed gives the same interval everywhere.
 
 use super::wilson::Interval;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Returns the percentile interval for a statistic over `values`. The statistic can be a mean, for example,
-/// or a difference in means between groups if each value carries its group.
+/// Returns the percentile interval for a statistic over `values`. For example, the statistic can be a mean, or a
+/// difference in means between groups if each value states its group.
 ///
-/// Draws `resamples` samples of the same size with replacement, and returns the range of the central fraction
-/// `level` of their statistics (0.95 for 95%). With `m` resamples, the bounds are the values with rank ⌊(1 −
-/// level) / 2 · (m − 1)⌋ from below and from above. Returns `None` if there are no values or resamples, if a
+/// Draws `resamples` samples of the same size with replacement, and returns the range of the central fraction `level`
+/// of their statistics (0.95 for 95%). With `m` resamples, the bounds are the values with rank
+/// ⌊(1 − level) / 2 · (m − 1)⌋ from below and from above. Returns `None` if there are no values or resamples, if a
 /// statistic is NaN, or if `level` is not within 0..1. Cost: O(resamples · values).
 ///
 /// ```
@@ -42,8 +42,8 @@ pub fn bootstrap<T: Copy>(
     percentiles(found.collect(), level)
 }
 
-/// Returns the percentile interval for the mean of `ours` minus the mean of `theirs`. The method is the same
-/// as in [`bootstrap`], with a separate sample for each side. The sample from `ours` is drawn first.
+/// Returns the percentile interval for the mean of `ours` minus the mean of `theirs`. The method is that of
+/// [`bootstrap`], with a separate sample for each side. The sample from `ours` is drawn first.
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap_difference;
@@ -114,7 +114,7 @@ mod tests {
 
     const GOLDEN: (f64, f64) = (9.16, 14.96);
 
-    /// With equal numbers of zeros and ones, the mean of n values has a standard error of 1 / (2 √n).
+    /// If half of the values are 0 and half are 1, the mean of n values has a standard error of 1 / (2 √n).
     #[test]
     fn it_is_as_wide_as_theory_says() {
         let values: Vec<f64> = (0..400).map(|i| f64::from(i % 2)).collect();

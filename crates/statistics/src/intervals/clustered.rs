@@ -1,9 +1,9 @@
-//! The cluster bootstrap for the mean over episodes from several games.
+//! The cluster bootstrap for the mean of episodes from several games.
 //!
-//! Episodes of the same game are similar, so twenty-five such episodes are not twenty-five independent
-//! observations of a player. Entire games are therefore resampled, with all their episodes (A. C. Davison and
-//! D. V. Hinkley, *Bootstrap Methods and their Application*, 1997, §3.8). The interval applies to similar
-//! games in general, not only to the games played.
+//! Episodes of the same game are similar, so twenty-five such episodes are not twenty-five independent observations
+//! of a player. Therefore, entire games are resampled with all their episodes (A. C. Davison and D. V. Hinkley,
+//! *Bootstrap Methods and their Application*, 1997, §3.8). The interval applies to similar games in general, not only
+//! to the games that were played.
 //!
 //! With fewer than about thirty games, the interval is too narrow. If all games agree, the interval has no
 //! width. For win rates, [`rate_over_games`](crate::rate_over_games) is better.
@@ -11,9 +11,9 @@
 use super::bootstrap::bootstrap;
 use super::wilson::Interval;
 
-/// Returns the percentile interval for the mean of all values, resampling whole clusters with replacement.
-/// Clusters without values are ignored. Returns `None` if there are no values, if a value is NaN, or if
-/// `level` is not within 0..1. Cost: O(values + resamples · clusters).
+/// Returns the percentile interval for the mean of all values, by resampling whole clusters with replacement.
+/// Clusters without values are ignored. Returns `None` if there are no values, if a value is NaN, or if `level` is
+/// not within 0..1. Cost: O(values + resamples · clusters).
 ///
 /// ```
 /// use infinite_arcade_statistics::clustered_mean;

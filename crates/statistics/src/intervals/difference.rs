@@ -4,9 +4,8 @@
 
 use super::wilson::{Interval, wilson};
 
-/// Returns the interval for the first proportion minus the second proportion, within [−1, 1]. The confidence
-/// is given by `z` standard deviations ([`Z95`](crate::Z95) for 95%). A side without trials may have any
-/// rate.
+/// Returns the interval for the first proportion minus the second proportion, within [−1, 1]. The confidence is given
+/// by `z` standard deviations ([`Z95`](crate::Z95) for 95%). If a side has no trials, its rate may be any proportion.
 ///
 /// Both bounds are NaN if [`wilson`] returns NaN for a side.
 ///
@@ -37,7 +36,7 @@ mod tests {
     #[track_caller]
     fn check(successes: [u64; 2], trials: [u64; 2], low: f64, high: f64) {
         let found = difference(successes, trials, Z95);
-        // The result must equal the four printed digits.
+        // The result must match the four printed digits.
         assert!(
             (found.low - low).abs() < 5.1e-5 && (found.high - high).abs() < 5.1e-5,
             "{successes:?} of {trials:?}: {found:?}, not [{low}, {high}]"

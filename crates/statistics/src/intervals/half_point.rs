@@ -1,4 +1,4 @@
-//! Estimates the dose at which half of the trials succeed, from trials at several doses on several items of
+//! Estimation of the dose at which half of the trials succeed, from trials at several doses on several items of
 //! unequal difficulty.
 
 use super::bootstrap::below;
@@ -28,27 +28,27 @@ pub struct HalfPoint {
     pub interval: Interval,
 }
 
-/// The precision of the items' effects, in logits. The value is the reciprocal of the combined variance of
-/// games (1.3²) and levels (1.0²).
+/// The precision of the item effects, in logits: the reciprocal of the combined variance of games (1.3²) and levels
+/// (1.0²).
 const ITEM_PRECISION: f64 = 1.0 / (1.3 * 1.3 + 1.0);
-/// The mean and the precision of the slope's prior. The prior is weak, but it keeps the estimate defined if
-/// all trials succeed or all trials fail.
+/// The mean and the precision of the prior for the slope. The prior is weak, but it keeps the estimate defined if all
+/// trials succeed or all trials fail.
 const SLOPE: (f64, f64) = (1.0, 1.0);
-/// The precision of the intercept's prior, whose mean is 0.
+/// The precision of the prior for the intercept. The mean of the prior is 0.
 const INTERCEPT_PRECISION: f64 = 1.0 / (20.0 * 20.0);
 /// The maximum number of Newton steps. Typically, 6 are needed.
 const STEPS: usize = 60;
-/// The maximum factor by which a reported dose may lie outside the range of tried doses. The data say nothing
-/// about doses further outside.
+/// The maximum factor by which a reported dose may lie outside the range of doses tried. The data say nothing about
+/// doses beyond that.
 const BEYOND: f64 = 4.0;
 
-/// Estimates the dose at which half of the trials succeed. `groups` contains each group's items with their
-/// trials, such as each game's levels.
+/// Estimates the dose at which half of the trials succeed. `groups` contains the items of each group with their
+/// trials. For example, a group is a game, and its items are levels.
 ///
-/// The model is logit P = a + item − b ln dose with b ≥ 0.05 and normally distributed item effects. The
-/// parameters are maximum a posteriori estimates. The interval comes from a hierarchical bootstrap, which
-/// draws groups with replacement, and items within each group. If the estimate is more than a factor of four
-/// below or above the tried doses, that limit is reported instead.
+/// The model is logit P = a + item − b ln dose with b ≥ 0.05 and normally distributed item effects. The parameters
+/// are maximum a posteriori estimates. The interval comes from a hierarchical bootstrap, which draws groups with
+/// replacement, and then items within each group. If the estimate is more than a factor of four below or above the
+/// doses tried, that limit is reported instead.
 ///
 /// Returns `None` if there are no trials, if a dose is not positive, or if `level` is not within 0..1. Cost:
 /// O(resamples · trials).
@@ -137,7 +137,7 @@ fn fit(items: &[&[DoseTrials]]) -> (f64, f64) {
             (bb * gradient[0] - ab * gradient[1]) / determinant,
             (aa * gradient[1] - ab * gradient[0]) / determinant,
         ];
-        // A long step is shortened, because the likelihood is flat far from its maximum.
+        // Long steps are shortened, because the likelihood is flat far from its maximum.
         let scale = 1.0_f64.min(2.0 / step[0].abs().max(step[1].abs()).max(1e-300));
         a += scale * step[0];
         let was = b;
@@ -167,8 +167,8 @@ mod tests {
 
     #[test]
     fn the_half_point_is_found_among_items_of_unequal_difficulty() {
-        // The items are at −2, 0 and 2 logits around a half point of 10 with a slope of 1. Each has the
-        // expected number of wins in 100 trials.
+        // The items lie at −2, 0 and 2 logits around a half point of 10, with a slope of 1. Each has the number of
+        // wins expected from 100 trials.
         let expected = |effect: f64| {
             let at = |dose: f64| {
                 let logit = libm::log(10.0) - libm::log(dose) + effect;

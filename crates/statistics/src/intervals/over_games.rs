@@ -1,6 +1,6 @@
-//! Intervals for win rates and their differences, which apply to games similar to the ones played. Games are
-//! the sampling unit, because episodes of the same game are similar, and different games suit different
-//! players. Both intervals keep their coverage with six or more games (`cargo xtask simulate`).
+//! Intervals for win rates and their differences that apply to games similar to the ones played. Games are the
+//! sampling unit, because episodes of the same game are similar, and different games suit different players. Both
+//! intervals keep their coverage with six or more games (`cargo xtask simulate`).
 
 use super::wilson::{Interval, score_interval};
 use crate::student::{student_p, student_quantile};
@@ -21,10 +21,10 @@ pub struct RateOverGames {
 /// Returns the fraction of successes among all trials, with a confidence interval that applies to similar
 /// games. `games` contains each game's numbers of successes and trials. Games without trials are ignored.
 ///
-/// The method follows E. L. Korn and B. I. Graubard ("Confidence intervals for proportions with small
-/// expected number of positive counts estimated from survey data", 1998), but uses Wilson's interval,
-/// computed from the effective number of trials and a quantile of Student's t. The degrees of freedom are the
-/// number of games minus one.
+/// The method follows E. L. Korn and B. I. Graubard ("Confidence intervals for proportions with small expected number
+/// of positive counts estimated from survey data", 1998). However, it uses Wilson's interval, computed from the
+/// effective number of trials and a quantile of Student's t. The degrees of freedom are the number of games minus
+/// one.
 ///
 /// The effective number of trials follows from the variance between games (W. G. Cochran, *Sampling
 /// Techniques*, 1977, §3.12). If all games have the same rate, the variance is unknown, and the effective
@@ -45,9 +45,9 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
     share_over_games(&games, level)
 }
 
-/// Returns the mean of fractions from several games, with a confidence interval that applies to similar
-/// games. The fractions can, for example, be the win rates of equally weighted levels. The method is that of
-/// [`rate_over_games`]. `games` contains the sum and the number of fractions for each game.
+/// Returns the mean of fractions from several games, with a confidence interval that applies to similar games. The
+/// fractions can be the win rates of equally weighted levels, for example. The method is that of [`rate_over_games`].
+/// `games` contains the sum and the number of fractions for each game.
 ///
 /// ```
 /// use infinite_arcade_statistics::share_over_games;
@@ -92,16 +92,16 @@ pub struct PairedOverGames {
 }
 
 /// Compares two players by their rates on each game, with a t test on the paired differences ("Student", "The
-/// probable error of a mean", 1908). Each game counts once, regardless of its number of episodes. A game's
-/// difficulty cancels out.
+/// probable error of a mean", 1908). Each game counts once, regardless of its number of episodes. The difficulty of a
+/// game cancels out in its difference.
 ///
 /// The p-value is at least 2 · 2⁻ᵍ for g games, the minimum p-value of the exact sign test (R. A. Fisher,
 /// *The Design of Experiments*, 1935, §21). Fewer than six games therefore cannot prove a difference at the
 /// 5% level.
 ///
-/// If the difference is the same on all games, its variance is unknown. In that case, the p-value is this
-/// minimum, or 1 if the difference is zero, and the interval is Newcombe's, computed from the Wilson
-/// intervals for the two rates with the games as trials.
+/// If the difference is the same on all games, its variance is unknown. In that case, the p-value is this minimum, or
+/// 1 if the difference is zero. The interval is Newcombe's, computed from the Wilson intervals for the two rates,
+/// with the games as trials.
 ///
 /// Returns `None` if there are fewer than two games, if a rate is not a proportion, or if `level` is not
 /// within 0..1. Cost: O(games).
@@ -141,7 +141,7 @@ pub fn paired_over_games(games: &[[f64; 2]], level: f64) -> Option<PairedOverGam
     Some(PairedOverGames { rates, difference, interval, p })
 }
 
-/// Returns the minimum two-sided p-value in a sign test on the given number of differences.
+/// Returns the minimum two-sided p-value of a sign test on the given number of differences.
 pub(crate) fn least_p(games: usize) -> f64 {
     (0..games.min(1000)).fold(2.0, |least: f64, _| least / 2.0).min(1.0)
 }
@@ -161,8 +161,8 @@ mod tests {
     #[test]
     fn a_rate_worked_by_hand() {
         let found = rate_over_games(&[(0, 10), (5, 10), (10, 10)], 0.95).unwrap();
-        // The squares are 25 + 0 + 25, times 3/2 and divided by 900. The variance is 1/12, so three games are
-        // worth three trials.
+        // The sum of the squares is 25 + 0 + 25, which is multiplied by 3/2 and divided by 900. The variance is 1/12,
+        // so three games are worth three trials.
         close(found.rate, 0.5);
         close(found.effective, 3.0);
         let t: f64 = 4.302652729911275;
@@ -171,7 +171,7 @@ mod tests {
         close(found.interval.high, 0.5 + half);
     }
 
-    /// If games differ no more than randomness explains, all episodes count.
+    /// If games differ no more than chance explains, all episodes count.
     #[test]
     fn equal_games_keep_their_episodes() {
         let games: Vec<(u64, u64)> = (0..400).map(|game| (10 + game % 2, 25)).collect();
@@ -183,7 +183,7 @@ mod tests {
         );
     }
 
-    /// Even if a player always wins or never wins, the rate is not known exactly.
+    /// Even if a player always wins or never wins, some uncertainty about the rate remains.
     #[test]
     fn games_that_agree_leave_doubt() {
         for games in 2..40 {

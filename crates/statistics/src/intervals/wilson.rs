@@ -2,7 +2,7 @@
 //! statistical inference", 1927). Unlike the textbook interval, it keeps its coverage with few trials and for
 //! proportions near 0 and 1.
 
-/// The quantile of the normal distribution for a two-sided 95% interval.
+/// The quantile of the standard normal distribution for a two-sided 95% interval.
 pub const Z95: f64 = 1.959963984540054;
 
 /// A closed interval with `low ≤ high`. Intervals for proportions are within [0, 1], and intervals for
@@ -132,7 +132,7 @@ mod tests {
                 assert_eq!(now.low == 0.0, successes == 0);
                 assert_eq!(now.high == 1.0, successes == trials);
                 assert!(now.low >= before.low && now.high > before.high);
-                // The interval for failures is the mirror image of the interval for successes.
+                // The interval for failures mirrors the interval for successes.
                 let mirror = wilson(trials - successes, trials, Z95);
                 assert!((now.low + mirror.high - 1.0).abs() < 1e-15);
                 before = now;

@@ -17,16 +17,16 @@ pub struct Spread {
     pub games: f64,
     /// The standard deviation of level ease within a game.
     pub levels: f64,
-    /// The standard deviation of the match between a player and a game. A match is how much better the player
-    /// performs on the game than on equally hard games.
+    /// The standard deviation of the match between a player and a game: how much better the player performs on the
+    /// game than on equally hard games.
     pub matches: f64,
 }
 
 impl Default for Spread {
-    /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for matches. The values for games
-    /// and levels were measured with built-in players. The value for matches is based on the published
-    /// results of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`). The
-    /// maximum-likelihood estimate is 0.88.
+    /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for matches. The values for games and
+    /// levels were measured with built-in players. The value for matches is based on the published results of fifteen
+    /// language models on six games (`docs/reference/spec/paper-winrates.csv`), for which the maximum-likelihood
+    /// estimate is 0.88.
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }
@@ -43,9 +43,8 @@ pub struct Design {
     pub runs: u64,
 }
 
-/// The distance, in standard deviations, between the nodes for integrating over a normal variable. With
-/// [`SIDE`] nodes on either side of 0, the trapezoidal rule is accurate to about 1e-7 for functions as smooth
-/// as the logistic function.
+/// The distance between nodes for integrating over a normal variable, in standard deviations. With [`SIDE`] nodes on
+/// either side of 0, the trapezoidal rule is accurate to about 1e-7 for functions as smooth as the logistic function.
 const STEP: f64 = 0.75;
 /// The number of nodes on either side of 0 for integrating over a normal variable.
 const SIDE: i32 = 6;
@@ -61,9 +60,9 @@ impl Design {
         (self.moments(rates, spread).0 / self.games as f64).sqrt()
     }
 
-    /// Returns the probability that the test over games at level `alpha` distinguishes two players with the
-    /// given win rates, in the right direction. Returns 0 if there are too few games for the test. Cost:
-    /// O(1), about a millisecond.
+    /// Returns the probability that the test over games at level `alpha` distinguishes two players with the given win
+    /// rates, and finds the better one to be better. Returns 0 if there are too few games for the test. Cost: O(1),
+    /// about a millisecond.
     ///
     /// ```
     /// use infinite_arcade_statistics::{Design, Spread};
@@ -109,11 +108,11 @@ impl Design {
     fn moments(&self, rates: [f64; 2], spread: Spread) -> (f64, f64) {
         let ability = rates.map(|rate| spread.ability(rate));
         let (levels, runs) = (self.levels as f64, self.runs as f64);
-        // `powers` holds the sums of the powers of a game's mean difference, `inner` the sum of the variances
-        // about that mean, and `cross` the sum of the variances times the mean difference.
+        // `powers` contains the sums of the powers of a game's mean difference. `inner` is the sum of the variances
+        // about that mean. `cross` is the sum of the products of the variances and the mean difference.
         let (mut powers, mut inner, mut cross) = ([0.0; 3], 0.0, 0.0);
         for (game, weight) in nodes() {
-            // For each match: its weight, the mean rate on this game, and the rates on the game's levels.
+            // For each match: its weight, the mean rate on this game, and the rates on each of the game's levels.
             let of_side = |side: usize| -> Vec<(f64, f64, Vec<f64>)> {
                 let with = |(fit, weight): (f64, f64)| {
                     let centre = ability[side] + spread.games * game + spread.matches * fit;
@@ -151,13 +150,13 @@ impl Design {
 }
 
 impl Spread {
-    /// Returns the ability with the given mean win rate over games and levels.
+    /// Returns the ability that has the given mean win rate over games and levels.
     pub fn ability(&self, rate: f64) -> f64 {
         let all = (self.games * self.games + self.levels * self.levels + self.matches * self.matches).sqrt();
         let (mut low, mut high) = (-30.0, 30.0);
         for _ in 0..60 {
             let middle = (low + high) / 2.0;
-            // A wide distribution needs more nodes.
+            // Wide distributions need more nodes.
             let mean: f64 = (-80..=80)
                 .map(|node| {
                     let z = f64::from(node) * 0.1;
@@ -193,11 +192,10 @@ pub(crate) fn logistic(x: f64) -> f64 {
 /// Returns an upper tail of the noncentral t distribution: the probability that a normal variable with mean
 /// `shift`, divided by √(χ²/`df`) for an independent χ² with `df` degrees of freedom, exceeds `quantile`.
 ///
-/// Means of skewed values are correlated with their standard errors. The root is therefore multiplied by √(1
-/// + `skewness` · z), where z is the deviation of the normal variable.
+/// Means of skewed values are correlated with their standard errors. Therefore, the root is multiplied by
+/// √(1 + `skewness` · z), where z is the deviation of the normal variable.
 fn shifted_tail(quantile: f64, df: f64, shift: f64, skewness: f64) -> f64 {
-    // The integral is over s = √(χ²/df), whose density is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df
-    // s²/2).
+    // The integral is over s = √(χ²/df). The density of s is 2 (df/2)^(df/2) / Γ(df/2) · s^(df−1) · exp(−df s²/2).
     let scale = (df / 2.0) * log(df / 2.0) - lgamma(df / 2.0) + std::f64::consts::LN_2;
     let (most, parts) = (1.0 + 8.0 / (2.0 * df).sqrt(), 1000);
     let step = most / f64::from(parts);
@@ -239,11 +237,11 @@ mod tests {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };
         assert!((none.ability(0.25) - log(1.0 / 3.0)).abs() < 1e-9);
         assert!(Spread::default().ability(0.5).abs() < 1e-9);
-        // Random effects move mean rates towards 0.5, so a rate of 0.1 requires an ability further from 0.
+        // Random effects move mean rates towards 0.5, so a mean rate of 0.1 requires an ability further from 0.
         assert!(Spread::default().ability(0.1) < none.ability(0.1) - 0.5);
     }
 
-    /// Without random effects, a game's difference has the variance of a difference between two binomials.
+    /// Without random effects, the difference on a game has the variance of a difference between two binomials.
     #[test]
     fn variances_without_spread() {
         let none = Spread { games: 0.0, levels: 0.0, matches: 0.0 };

@@ -1,4 +1,4 @@
-//! Plans evaluations by computing the number of episodes needed to detect a difference.
+//! Planning of evaluations, by computing the number of episodes needed to detect a difference.
 
 pub(crate) mod design;
 pub(crate) mod draws;

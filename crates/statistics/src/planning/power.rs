@@ -1,10 +1,10 @@
-//! Power analysis for win rates: computes the number of episodes needed to detect a difference. It is
-//! intended for planning a run. With five episodes per side, for example, only two kinds of result are
-//! significant: five wins against at most one win, and four wins against none.
+//! Power analysis for win rates. It computes the number of episodes needed to detect a difference, and is intended
+//! for planning a run. For example, with five episodes per side, only two kinds of result are significant: five wins
+//! against at most one win, and four wins against none.
 //!
-//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral
-//! Sciences*, 1988, §6.4). [`fisher_power`] sums over all tables, and computes the power of the test
-//! performed after the run. Fisher's test is more conservative, especially for few trials.
+//! [`Power`] uses the arcsine transformation (J. Cohen, *Statistical Power Analysis for the Behavioral Sciences*,
+//! 1988, §6.4). [`fisher_power`] computes the power of the test that is performed after the run, by summing over all
+//! tables. Fisher's test is more conservative, especially with few trials.
 
 use crate::comparisons::cohen::{angle, cohens_h};
 use crate::comparisons::fisher::fisher;
@@ -39,8 +39,8 @@ impl Power {
         self.deviations() * (2.0 / trials as f64).sqrt()
     }
 
-    /// Returns the nearest rates below and above `base` that `trials` trials per side can distinguish from
-    /// `base`. A rate is `None` if no rate on its side can be distinguished, or if `base` is not a
+    /// Returns the nearest rate below `base` and the nearest rate above it that `trials` trials per side can
+    /// distinguish from `base`. A rate is `None` if there is no such rate on its side, or if `base` is not a
     /// proportion.
     ///
     /// ```
@@ -70,15 +70,15 @@ impl Power {
         (h.abs() > 0.0).then(|| (2.0 * ratio * ratio).ceil() as u64)
     }
 
-    /// Returns the size, in standard deviations, of a difference detectable with the required power.
+    /// Returns the size, in standard deviations, of a difference that is detected with the required power.
     fn deviations(&self) -> f64 {
         quantile(1.0 - self.alpha / 2.0) + quantile(self.power)
     }
 }
 
-/// Returns the probability that [`fisher`] returns at most `alpha`, if two players with win rates `rates`
-/// play `trials` episodes. Returns NaN if a rate is not a proportion. Cost: cubic in the number of trials. A
-/// few hundred trials are feasible.
+/// Returns the probability that [`fisher`] returns at most `alpha` if two players with win rates `rates` play
+/// `trials` episodes. Returns NaN if a rate is not a proportion. Cost: cubic in the number of trials, so a few
+/// hundred trials are feasible.
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher_power;
@@ -165,15 +165,15 @@ mod tests {
         let (p, q): (f64, f64) = (0.9, 0.1);
         let (five, four) = (p * p * p * p * p, 5.0 * p * p * p * p * q);
         let expect = five * (five + four) + four * five;
-        // In the mirror image, the worse player is lucky.
+        // In the mirror image, the worse player is the lucky one.
         let (none, one) = (q * q * q * q * q, 5.0 * q * q * q * q * p);
         let expect = expect + none * (none + one) + one * none;
         let found = fisher_power([p, q], [5, 5], 0.05);
         assert!((found - expect).abs() < 1e-12, "{found}, not {expect}");
     }
 
-    /// The arcsine approximation agrees with the number of trials required by Fisher's test, except that
-    /// Fisher's test is more conservative.
+    /// The arcsine approximation gives about the number of trials that Fisher's test requires, but Fisher's test is
+    /// more conservative.
     #[test]
     fn the_approximation_is_near() {
         for (p, q) in [(0.1, 0.4), (0.5, 0.7), (0.05, 0.2)] {

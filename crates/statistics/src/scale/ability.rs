@@ -1,4 +1,4 @@
-//! Estimates a player's ability from its episodes on levels of known difficulty.
+//! Estimation of a player's ability from episodes on levels of known difficulty.
 //!
 //! The likelihood is integrated by quadrature over three kinds of unknowns: the match between the player and
 //! each game, the errors in the difficulties, and the standard deviation of the matches. No distribution is
@@ -12,18 +12,18 @@ use crate::intervals::wilson::{Interval, Z95};
 pub struct PlayedLevel {
     /// The level's difficulty.
     pub difficulty: f64,
-    /// The difficulty's standard error, without the component shared by all of the game's levels.
+    /// The standard error of the difficulty, without the component that all of the game's levels share.
     pub own: f64,
     /// The number of episodes won.
     pub won: f64,
-    /// The number of episodes. Identical episodes count once.
+    /// The number of episodes played. Identical episodes count once.
     pub of: f64,
 }
 
 /// A player's results on one game.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlayedGame {
-    /// The standard error shared by the difficulties of the game's levels.
+    /// The standard error shared by the difficulties of all of the game's levels.
     pub common: f64,
     /// The results on the game's levels.
     pub levels: Vec<PlayedLevel>,
@@ -34,7 +34,7 @@ pub struct PlayedGame {
 pub struct MismatchPrior {
     /// The median of the prior, in logits.
     pub median: f64,
-    /// The standard deviation of the natural logarithm of the standard deviation.
+    /// The standard deviation of the prior for the natural logarithm of the matches' standard deviation.
     pub log_sd: f64,
 }
 
@@ -52,38 +52,38 @@ pub struct Ability {
     pub value: f64,
     /// The ability's total standard error.
     pub error: f64,
-    /// The error component caused by the limited number of episodes: the error that would remain if each
+    /// The error component caused by the limited number of episodes, which is the error that would remain if each
     /// level's difficulty for this player were known.
     pub sampling: f64,
-    /// The error component caused by games that suit the player better or worse than others, and by the
-    /// errors in their difficulties.
+    /// The error component caused by games that suit the player better or worse than others, and by the errors in the
+    /// games' difficulties.
     pub mismatch: f64,
-    /// The error component caused by the link between the month and the first release.
+    /// The error component caused by the link between the month's release and the first release.
     pub link: f64,
-    /// The ability's 95% interval.
+    /// The 95% interval of the ability.
     pub interval: Interval,
-    /// `true` for each end of the interval, lower then upper, that the data determine. Without wins, there is
-    /// no lower bound; without losses, there is no upper bound.
+    /// For the lower end of the interval and for the upper end, `true` if the data determine that end. Without wins,
+    /// there is no lower bound; without losses, there is no upper bound.
     pub is_bounded: [bool; 2],
     /// The posterior mean of the standard deviation of the player's matches with games.
     pub mismatch_sd: f64,
 }
 
-/// The distance between nodes in the grids of abilities and logits.
+/// The distance between adjacent nodes in the grids of abilities and logits.
 pub(super) const STEP: f64 = 0.15;
-/// The number of nodes on either side of 0, so that abilities are within ±10.05 logits.
+/// The number of nodes on either side of 0, which limits abilities to ±10.05 logits.
 pub(super) const SIDE: i32 = 67;
-/// The standard deviation of an ability's prior.
+/// The standard deviation of the prior for an ability.
 pub(super) const ABILITY_SD: f64 = 5.0;
-/// The grid for the standard deviation of matches: its smallest node, the ratio between neighbouring nodes,
-/// and the number of nodes.
+/// The grid for the standard deviation of matches: its smallest node, the ratio between adjacent nodes, and the
+/// number of nodes.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
-/// The number of standard deviations beyond which a normal distribution is truncated.
+/// The number of standard deviations at which a normal distribution is truncated.
 pub(super) const TAIL: f64 = 5.0;
 /// The number of parts into which each ability step is divided for computing the interval.
 const PARTS: usize = 10;
 
-/// Estimates a player's ability. `link` is the standard error shared by the difficulties of all levels.
+/// Estimates a player's ability. `link` is the standard error that the difficulties of all levels share.
 ///
 /// Returns `None` if there are no episodes, if a number is not finite, or if an entry has more wins than
 /// episodes. Cost: O(levels + games) times several thousand.
@@ -130,7 +130,7 @@ pub fn ability(games: &[PlayedGame], prior: MismatchPrior, link: f64) -> Option<
     })
 }
 
-/// The posterior on the ability grid.
+/// The posterior density on the grids of mismatches and abilities.
 struct Density<'a> {
     games: &'a [PlayedGame],
     /// The posterior weights, indexed by mismatch and ability. The weights sum to 1.
@@ -216,13 +216,13 @@ impl<'a> Density<'a> {
                 sum >= share * total
             });
             let place = place.unwrap_or(last * PARTS);
-            // Each node represents half of a part on either side.
+            // Each node represents half a part on either side.
             let over = (sum - share * total) / fine[place];
             (place as f64 + 0.5 - over) / PARTS as f64 * STEP - f64::from(SIDE) * STEP
         })
     }
 
-    /// Returns the variance that the ability would have if each level's difficulty for this player were
+    /// Returns the variance that the estimated ability would have if each level's difficulty for this player were
     /// known.
     fn sampling(&self, ability: f64, mismatch: f64) -> f64 {
         let information: f64 = (self.games.iter())
@@ -241,8 +241,8 @@ impl<'a> Density<'a> {
 }
 
 impl PlayedGame {
-    /// Returns the likelihood of the game's episodes for each logit from `-reach` to `reach` steps. The
-    /// errors of the individual levels are integrated out.
+    /// Returns the likelihood of the game's episodes for each logit from `-reach` to `reach` steps. The errors of the
+    /// individual levels' difficulties are integrated out.
     pub(super) fn likelihoods(&self, reach: i32) -> Vec<f64> {
         let mut all = vec![1.0; 2 * reach as usize + 1];
         for level in self.levels.iter().filter(|level| level.of > 0.0) {
@@ -269,7 +269,7 @@ pub(super) fn nodes() -> impl Iterator<Item = (f64, f64)> {
     (-3i32..=3).map(|z| (f64::from(z), WEIGHTS[z.unsigned_abs() as usize]))
 }
 
-/// Returns the weights of a zero-mean normal distribution at the steps around 0.
+/// Returns the weights of a zero-mean normal distribution at the grid steps around 0.
 pub(super) fn kernel(sd: f64) -> Vec<f64> {
     let half = (TAIL * sd / STEP) as i32;
     let mut weights: Vec<f64> = (-half..=half)
@@ -310,8 +310,7 @@ mod tests {
         assert!((found.interval.high / found.error - Z95).abs() < 0.1, "{found:?}");
     }
 
-    /// If a level's difficulty is known, splitting its episodes into several entries does not change the
-    /// result.
+    /// If a level's difficulty is known, splitting its episodes among several entries does not change the result.
     #[test]
     fn plays_may_be_counted_together() {
         let level = |won: f64, of: f64| PlayedLevel { difficulty: 0.5, own: 0.0, won, of };

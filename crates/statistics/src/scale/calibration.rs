@@ -1,4 +1,4 @@
-//! Calibrates a first release, and adds later months to the scale.
+//! Calibration of a first release, and the addition of later months to the scale.
 
 use super::maximise::maximise;
 use super::plays::{Dimension, Examinee, GamePlays};
@@ -6,7 +6,7 @@ use super::posterior::{Functional, Model, Modes, Posterior};
 use super::spreads::Spreads;
 use nalgebra::DMatrix;
 
-/// Both dimensions, in the order used by pairs of values.
+/// Both dimensions, in the order of pairs of values.
 const BOTH: [Dimension; 2] = [Dimension::Planner, Dimension::Reader];
 
 /// An estimated value and its standard error.
@@ -32,7 +32,7 @@ impl Estimated {
 pub struct Difficulties {
     /// The difficulty of each level, with its standard error.
     pub levels: Vec<Estimated>,
-    /// The standard error shared by all of the game's levels, without the link error.
+    /// The standard error that all of the game's levels share, without the link error.
     pub common: f64,
 }
 
@@ -44,13 +44,13 @@ impl Difficulties {
     }
 }
 
-/// The difficulties of a game's levels, and the fit of its episodes.
+/// The difficulties of a game's levels, and how well the episodes on the game fit the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameDifficulties {
     /// The difficulties for planners and for readers. The standard errors exclude the link error.
     pub difficulties: [Difficulties; 2],
-    /// The mean squared standardised residual over the game's episodes. It is about 1 if the episodes fit the
-    /// model, and greater if they do not.
+    /// The sum of squared residuals divided by the sum of their variances. It is about 1 if the episodes on the game
+    /// fit the model, and greater if they do not.
     pub misfit: f64,
 }
 
@@ -59,41 +59,41 @@ pub struct GameDifficulties {
 pub struct Month {
     /// The release's games, in the order of the given results.
     pub games: Vec<GameDifficulties>,
-    /// The difference in mean level difficulty between the month and the first release, for planners and for
-    /// readers. The errors include the link error for arbitrary players in the dimension.
+    /// The difference in mean level difficulty between the month and the first release, for planners and for readers.
+    /// The errors include the link error for arbitrary players in that dimension.
     pub shifts: [Estimated; 2],
-    /// The shift in mean difficulty for exactly the planners in the calibration, with their link error.
+    /// The shift in mean difficulty for exactly those planners that are in the calibration, with their link error.
     pub planners_shift: Estimated,
-    /// The standard error shared by the difficulties of all levels, for planners and for readers. For the
-    /// first release, the error is 0.
+    /// The standard error that the difficulties of all levels share, for planners and for readers. The error of the
+    /// first release is 0.
     pub link: [f64; 2],
-    /// The month's additional difficulty for readers, beyond the value implied by its difficulty for
-    /// planners. `None` if no anchor (a reader from the calibration) played.
+    /// The month's additional difficulty for readers, beyond the difficulty implied by that for planners. `None` if
+    /// no anchor (a reader from the calibration) played.
     pub drift: Option<Estimated>,
 }
 
-/// The result of a calibration, which places examinees and a first release on a common scale.
+/// The result of a calibration, which places examinees and a first release on the same scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// The calibration's examinees.
     pub examinees: Vec<Examinee>,
     /// The model's estimated standard deviations and slopes.
     pub spreads: Spreads,
-    /// The examinees' abilities. An ability is the examinee's logit on an average game from the first
-    /// release's distribution of games.
+    /// The examinees' abilities. An ability is the examinee's logit on an average game from the distribution from
+    /// which the first release was drawn.
     pub abilities: Vec<f64>,
     /// The covariance matrix of the abilities, the two origins and the ease, in this order, stored by rows.
     pub covariance: Vec<f64>,
-    /// The mean difficulties of the first release's levels for planners and for readers. The origins define
-    /// the scale's zero.
+    /// The mean difficulties of the first release's levels for planners and for readers. These origins define the
+    /// zero of the scale.
     pub origins: [f64; 2],
     /// The planners' mean logit on the first release.
     pub ease: f64,
 }
 
 impl Calibration {
-    /// Calibrates a first release by estimating spreads, abilities and difficulties. Every examinee must have
-    /// played.
+    /// Calibrates a first release by estimating spreads, abilities and difficulties. Every examinee must have played
+    /// at least one episode.
     ///
     /// Returns `None` if there are no episodes, if an entry is invalid, or if an examinee has no episodes.
     /// Cost: a few hundred evaluations of O(games · effects³) each.
@@ -141,8 +141,8 @@ impl Calibration {
         Some((calibration, base))
     }
 
-    /// Returns an examinee's ability relative to the mean difficulty of the first release's levels in the
-    /// examinee's dimension.
+    /// Returns an examinee's ability relative to the mean difficulty of the first release's levels, in the examinee's
+    /// dimension.
     pub fn ability(&self, examinee: usize) -> Estimated {
         let side = side(self.examinees[examinee].dimension);
         let (count, at) = (self.examinees.len(), |i: usize, j: usize| self.covariance(i, j));
@@ -225,12 +225,12 @@ impl Calibration {
     }
 }
 
-/// Returns the mean covariance of two levels, clamped between 0 and the minimum variance of any level.
+/// Returns the mean covariance between two levels, clamped between 0 and the minimum variance of any level.
 fn common(within: &DMatrix<f64>) -> f64 {
     let count = within.nrows();
     let least = (0..count).map(|at| within[(at, at)]).fold(f64::INFINITY, f64::min);
     if count < 2 {
-        // If a game has a single level, all of its error is common.
+        // If a game has only one level, all of the level's error is common.
         return if count == 1 { least.max(0.0) } else { 0.0 };
     }
     let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -261,7 +261,7 @@ fn checked<'a>(
     (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
 }
 
-/// Returns the spreads with the maximum posterior density, with all effects integrated out.
+/// Returns the spreads with the maximum posterior density after integrating out all effects.
 pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {

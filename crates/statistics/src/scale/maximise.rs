@@ -1,18 +1,18 @@
-//! Maximises a smooth function of a few parameters with the quasi-Newton method by Broyden, Fletcher,
-//! Goldfarb and Shanno (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
+//! Maximises a smooth function of a few parameters with the Broyden–Fletcher–Goldfarb–Shanno (BFGS) quasi-Newton
+//! method (J. Nocedal and S. J. Wright, *Numerical Optimization*, 2006, chapter 6).
 
 use nalgebra::{DMatrix, DVector};
 
-/// The maximum number of steps (typically 10 to 20).
+/// The maximum number of steps. Typically, 10 to 20 are needed.
 const STEPS: usize = 60;
 /// The maximum change in a parameter per step.
 const LONGEST: f64 = 1.0;
-/// The minimum gain of a step. The search ends when a step gains less.
+/// The minimum gain of a step. The search ends when the gain is smaller.
 const GAIN: f64 = 1e-7;
 
-/// Returns the position of a local maximum near `start`. `function` returns its value and its derivatives, or
-/// `None` at positions where it is undefined. Returns `None` if `function` is undefined at `start`. Cost: one
-/// call of `function` for most steps, and a few calls for the rest.
+/// Returns the position of a local maximum near `start`. `function` returns its value and its derivatives, or `None`
+/// where it is undefined. Returns `None` if `function` is undefined at `start`. Cost: one call of `function` for most
+/// steps, and a few calls for the others.
 pub(super) fn maximise(
     start: &[f64],
     function: &mut impl FnMut(&[f64]) -> Option<(f64, Vec<f64>)>,
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn a_narrow_ridge_is_climbed() {
-        // The function is Rosenbrock's valley, turned upside down.
+        // The function is an inverted Rosenbrock valley.
         let mut ridge = |x: &[f64]| {
             let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
             Some((-(a * a + 20.0 * b * b), vec![2.0 * a + 80.0 * b * x[0], -40.0 * b]))

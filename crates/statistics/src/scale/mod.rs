@@ -1,16 +1,16 @@
-//! A scale for ability over the months. Level difficulties and player abilities are estimated from the
-//! episodes of unchanging examinees.
+//! A scale of ability across the months. Level difficulties and player abilities are estimated from the episodes of
+//! examinees that do not change.
 //!
-//! The logit of the probability of winning is a sum of terms. The player's ability is added, and the
-//! difficulties of the month, the game and the level are subtracted. Two matches are added: that of the
-//! player's family with the game, and that of the player with the game.
+//! The logit of the probability of winning is a sum of terms. The player's ability is added, and the difficulties of
+//! the month, the game and the level are subtracted. Two matches are added: the match between the player's family and
+//! the game, and the match between the player and the game.
 //!
-//! Difficulty has two dimensions, one for planners and one for readers. The difficulty for readers is a slope
-//! times the difficulty for planners, plus an independent remainder.
+//! Difficulty has two dimensions, one for planners and one for readers. The difficulty for readers is the difficulty
+//! for planners multiplied by a slope, plus an independent remainder.
 //!
-//! [`Calibration`] estimates spreads by Laplace's method, corrects their shrinkage by a parametric bootstrap,
-//! and adds months while keeping abilities and spreads fixed. [`ability()`] estimates a player's ability by
-//! quadrature. [`expected_error`] supports planning, and [`Selection`] chooses levels adaptively.
+//! [`Calibration`] estimates spreads by Laplace's method, and corrects their shrinkage by a parametric bootstrap. It
+//! adds months while abilities and spreads stay fixed. [`ability()`] estimates a player's ability by quadrature.
+//! [`expected_error`] supports planning, and [`Selection`] chooses levels adaptively.
 
 mod ability;
 mod calibration;

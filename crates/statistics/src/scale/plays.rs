@@ -1,4 +1,4 @@
-//! Examinees' results: the number of episodes played and won by each examinee on each level.
+//! The results of examinees: the numbers of episodes that each examinee played and won on each level.
 
 /// A dimension of ability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,8 +14,8 @@ pub enum Dimension {
 pub struct Examinee {
     /// The examinee's dimension.
     pub dimension: Dimension,
-    /// The index of a planner's family. Planners in the same family find the same games hard. The index is
-    /// unused for readers.
+    /// The index of a planner's family. Planners of the same family find the same games hard. The index is unused for
+    /// readers.
     pub family: usize,
 }
 
@@ -42,8 +42,8 @@ pub struct GamePlays {
 }
 
 impl GamePlays {
-    /// Returns `true` if every entry refers to an existing level and to an examinee below `examinees`, and
-    /// has no more wins than episodes.
+    /// Returns `true` if every entry refers to an existing level and to an examinee with an index below `examinees`,
+    /// and has no more wins than episodes.
     pub(super) fn is_valid(&self, examinees: usize) -> bool {
         self.plays.iter().all(|plays| {
             plays.level < self.levels

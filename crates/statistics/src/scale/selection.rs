@@ -1,14 +1,14 @@
-//! Chooses levels: computes the expected error after planned episodes, and chooses the next level by its
+//! The choice of levels. The expected error is computed for planned episodes, and the next level is chosen by its
 //! information at the current ability.
 
 use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
 use super::logistic::logistic;
 
-/// Returns the expected standard error of an ability after planned episodes. In `games`, `of` is the planned
-/// number of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the
-/// player's matches with games, and `link` is the standard error shared by the difficulties of all levels.
+/// Returns the expected standard error of an ability after the planned episodes. In `games`, `of` is the planned
+/// number of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the player's
+/// matches with games. `link` is the standard error that the difficulties of all levels share.
 ///
-/// The information from a game's episodes is the sum over its levels, reduced because all levels of a game
+/// The information from a game's episodes is the sum over the game's levels, reduced because all levels of a game
 /// share one match. Cost: O(levels).
 ///
 /// ```
@@ -30,8 +30,8 @@ pub fn expected_error(games: &[PlayedGame], ability: f64, mismatch: f64, link: f
     (1.0 / information + link * link).sqrt()
 }
 
-/// Returns the information that a level's episodes give about the player's ability in the game. `variance` is
-/// the logit's variance, and `own` is the difficulty's standard error.
+/// Returns the information that a level's episodes provide about the player's ability in the game. `variance` is the
+/// logit's variance, and `own` is the standard error of the difficulty.
 fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     let sd = (variance + own * own).sqrt();
     let mean: f64 = nodes()
@@ -43,14 +43,13 @@ fn information(logit: f64, variance: f64, own: f64, of: f64) -> f64 {
     1.0 / (1.0 / (of * mean).max(1e-300) + own * own)
 }
 
-/// Converts the information about the ability in one game to information about the general ability.
+/// Converts information about the ability in one game to information about the general ability.
 fn shared(within: f64, variance: f64) -> f64 {
     within / (1.0 + variance * within)
 }
 
-/// An adaptive choice of levels. Each chosen level is the most informative one at the ability estimated from
-/// the recorded episodes. The choice depends only on the recorded episodes, so it can be reproduced from
-/// them.
+/// An adaptive choice of levels. Each chosen level is the most informative one at the ability estimated from the
+/// episodes recorded so far. The choice depends only on those episodes, so it can be reproduced from them.
 #[derive(Clone, Debug)]
 pub struct Selection {
     /// The levels by game, where `of` is the number of recorded episodes.
@@ -65,21 +64,21 @@ pub struct Selection {
     parts: Vec<Vec<f64>>,
 }
 
-/// A chosen level, with the ability estimated before the level is played.
+/// A chosen level, and the ability estimated before the level is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chosen {
     /// The game's index.
     pub game: usize,
     /// The level's index in the game.
     pub level: usize,
-    /// The ability estimated from previous episodes.
+    /// The ability estimated from the previous episodes.
     pub ability: f64,
     /// The ability's standard error, without the link error.
     pub error: f64,
 }
 
 impl Selection {
-    /// Creates a selection without episodes. `games` contains the levels' difficulties. Each level can be
+    /// Creates a selection without any episodes. `games` contains the difficulties of the levels. Each level can be
     /// chosen `runs` times.
     pub fn new(games: &[PlayedGame], mismatch: f64, runs: u64) -> Selection {
         let mut games = games.to_vec();
@@ -109,15 +108,15 @@ impl Selection {
         (mean, variance.sqrt())
     }
 
-    /// Chooses the next level: the one whose episode adds the most information about the ability, given the
-    /// episodes chosen so far. Ties are broken by the order of games and levels. Returns `None` once all
-    /// levels are exhausted. Cost: O(levels).
+    /// Chooses the level whose next episode adds the most information about the ability, given the episodes chosen so
+    /// far. Ties are broken by the order of games and levels. Returns `None` once all levels are exhausted. Cost:
+    /// O(levels).
     pub fn choose(&mut self) -> Option<Chosen> {
         let (ability, error) = self.ability();
         let mut best: Option<(f64, usize, usize)> = None;
         for (at, game) in self.games.iter().enumerate() {
             let variance = self.mismatch * self.mismatch + game.common * game.common;
-            // The variance includes the uncertainty of the ability itself.
+            // The variance includes the uncertainty about the ability itself.
             let wide = variance + error * error;
             let of = |level: usize, plays: f64| {
                 let one = &game.levels[level];
@@ -171,7 +170,7 @@ mod tests {
         vec![PlayedGame { common: 0.2, levels: [-3.0, 0.0, 3.0].map(level).to_vec() }; count]
     }
 
-    /// A player with a very low ability gets easy levels. The first choices are one level from each game.
+    /// A player with a very low ability gets easy levels. The first choices include one level from each game.
     #[test]
     fn choices_go_where_the_player_is() {
         let mut selection = Selection::new(&games(20), 1.0, 1);
@@ -191,16 +190,15 @@ mod tests {
         assert_eq!(std::iter::from_fn(|| selection.choose()).count(), 40);
     }
 
-    /// The ability estimated by a selection, whose mismatch is given, agrees with the ability on the scale,
-    /// where the mismatch is estimated. The expected errors agree as well.
+    /// The ability estimated by a selection, for which the mismatch is given, agrees with the ability estimated on
+    /// the scale, for which the mismatch is estimated. The expected errors agree as well.
     #[test]
     fn errors_are_those_of_the_scale() {
         let mut played = games(60);
         let mut selection = Selection::new(&played, 1.0, 1);
         for (at, game) in played.iter_mut().enumerate() {
             for (place, level) in game.levels.iter_mut().enumerate() {
-                // The player is one logit above the mean. Some of the games suit the player, and others do
-                // not.
+                // The player is one logit above the mean. Some games suit the player, and others do not.
                 let won = [at % 10 != 0, at % 3 != 0, at % 9 == 0][place];
                 (level.won, level.of) = (f64::from(u8::from(won)), 1.0);
                 selection.record(at, place, won);

@@ -1,6 +1,6 @@
-//! Simulated months under the scale's model. All true values are known, so the simulations can measure error
-//! sizes and interval coverage. `cargo xtask simulate` prints tables, and this crate's tests run small
-//! simulations.
+//! Simulated months under the model of the scale. All true values are known, so the simulations can measure the size
+//! of errors and the coverage of intervals. `cargo xtask simulate` prints tables, and the tests of this crate run
+//! small simulations.
 
 use super::ability::{MismatchPrior, PlayedGame, PlayedLevel};
 use super::calibration::{Calibration, Difficulties, Month, side};
@@ -24,7 +24,7 @@ pub struct Plan {
     pub anchors: usize,
     /// The number of episodes per reader and level.
     pub anchor_runs: u32,
-    /// The number of bootstrap replicates for correcting the spreads' bias.
+    /// The number of bootstrap replicates used to correct the bias of the spreads.
     pub replicates: u64,
     /// The model's true standard deviations and slopes.
     pub spreads: Spreads,
@@ -50,7 +50,7 @@ impl SimulatedMonth {
     }
 }
 
-/// A random stream of months, determined by its seed.
+/// A random sequence of months, determined by its seed.
 pub struct Simulator {
     draws: Draws,
     plan: Plan,
@@ -61,8 +61,7 @@ pub struct Simulator {
 }
 
 impl Simulator {
-    /// Creates a simulator. Its planners range from weak to strong, and its readers are weaker on
-    /// average.
+    /// Creates a simulator. The planners range from weak to strong, and the readers are weaker on average.
     pub fn new(plan: Plan, seed: u64) -> Simulator {
         let mut examinees = Vec::new();
         let mut abilities = Vec::new();
@@ -81,8 +80,8 @@ impl Simulator {
         Simulator { draws: Draws::new(seed), plan, examinees, abilities }
     }
 
-    /// Draws a month. For planners, the month is `shift` logits harder than the mean of all games. For
-    /// readers, the month is `drift` logits harder than the shift implies.
+    /// Draws a month. For planners, the month is harder than the mean of all games by `shift` logits. For readers, it
+    /// is harder than the shift implies by `drift` logits.
     pub fn month(&mut self, shift: f64, drift: f64) -> SimulatedMonth {
         let Plan { games, levels, spreads, .. } = self.plan.clone();
         let planners = self.plan.families.iter().sum::<usize>();
@@ -130,8 +129,8 @@ impl Simulator {
         SimulatedMonth { plays, difficulties, ease }
     }
 
-    /// Draws a player's results on a month's levels. Each level is played once, and the episodes are spread
-    /// over as many games as possible. `month` is the calibrated month.
+    /// Draws a player's results on the levels of a month. Each level is played once, and the episodes are spread over
+    /// as many games as possible. `month` is the month after calibration.
     pub fn person(
         &mut self,
         truth: &SimulatedMonth,
@@ -161,18 +160,18 @@ impl Simulator {
     }
 }
 
-/// A simulated player, with its number of episodes.
+/// A simulated player, and the number of episodes that it plays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityCase {
     /// The player's true ability.
     pub ability: f64,
     /// The standard deviation of the player's matches with games.
     pub mismatch: f64,
-    /// The number of the player's episodes.
+    /// The number of episodes that the player plays.
     pub episodes: usize,
 }
 
-/// A month's link errors. Each pair contains the estimate minus the truth, and the stated error.
+/// The link errors of a month. Each pair contains the estimate minus the true value, and the stated error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkTrial {
     /// The link error for exactly the planners in the calibration.
@@ -187,7 +186,7 @@ pub struct LinkTrial {
     pub spreads: Spreads,
 }
 
-/// A simulation result, which compares an estimated ability with the truth.
+/// A simulation result, which compares an estimated ability with the true ability.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbilityTrial {
     /// The estimated ability minus the true ability.
@@ -204,13 +203,13 @@ struct Linked {
     first: SimulatedMonth,
     second: SimulatedMonth,
     calibration: Calibration,
-    /// The second month after calibration.
+    /// The second month, after calibration.
     month: Month,
 }
 
 impl Linked {
-    /// Draws and calibrates two months. The second month is `shift` logits harder, and has a drift of
-    /// `drift`. Returns `None` if a month cannot be calibrated.
+    /// Draws and calibrates two months. The second month is harder by `shift` logits and has the drift `drift`.
+    /// Returns `None` if a month cannot be calibrated.
     fn new(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Linked> {
         let mut simulator = Simulator::new(plan.clone(), seed);
         let (first, second) = (simulator.month(0.0, 0.0), simulator.month(shift, drift));
@@ -230,7 +229,7 @@ impl Linked {
         self.simulator.person(&self.second, &self.month, dimension, case)
     }
 
-    /// Estimates an ability from results on the second month, and compares the estimate with the truth.
+    /// Estimates an ability from results on the second month, and compares the estimate with the true ability.
     fn trial(&self, games: &[PlayedGame], dimension: Dimension, ability: f64) -> Option<AbilityTrial> {
         let truth = ability - self.first.mean(dimension);
         let found = super::ability(games, MismatchPrior::default(), self.month.link[side(dimension)])?;
@@ -242,8 +241,8 @@ impl Linked {
     }
 }
 
-/// Calibrates a first month, and adds a second month that is `shift` logits harder and has a drift of
-/// `drift`. Returns `None` if a month cannot be calibrated.
+/// Calibrates a first month, and adds a second month that is harder by `shift` logits and has the drift `drift`.
+/// Returns `None` if a month cannot be calibrated.
 pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<LinkTrial> {
     let Linked { first, second, calibration, month, .. } = Linked::new(plan, shift, drift, seed)?;
     let apart = |dimension: Dimension| second.mean(dimension) - first.mean(dimension);
@@ -274,7 +273,7 @@ pub fn ability_trials(
     cases.iter().map(|case| (0..persons).map(|_| trial(*case)).collect()).collect()
 }
 
-/// A player's ability, estimated with two designs from the same outcomes.
+/// A player's ability, estimated by two designs from the same outcomes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdaptiveTrial {
     /// The result with one episode per level, with episodes spread over as many games as possible.
@@ -283,7 +282,7 @@ pub struct AdaptiveTrial {
     pub adaptive: Vec<AbilityTrial>,
 }
 
-/// Calibrates two months, and simulates players of each ability and mismatch on the second month. Returns the
+/// Calibrates two months, and simulates players with each ability and mismatch on the second month. Returns the
 /// results by case.
 ///
 /// The first design spreads `episodes` episodes over the games. The second design chooses episodes
@@ -334,8 +333,8 @@ mod tests {
         Plan { games: 24, levels: 3, families, runs: 4, anchors, anchor_runs: 2, replicates: 0, spreads }
     }
 
-    /// The links between small months have the stated errors. The link for exactly the calibration's planners
-    /// has the smallest error.
+    /// The errors of the links between small months are as stated. The link for exactly the planners in the
+    /// calibration has the smallest error.
     #[test]
     fn links_are_as_exact_as_stated() {
         let trials: Vec<LinkTrial> =
@@ -394,8 +393,7 @@ mod tests {
         assert!(mean.abs() < 0.1, "{mean}");
     }
 
-    /// If all episodes are lost, or all are won, the result reflects the priors, and the calibration does not
-    /// fail.
+    /// If all episodes are lost, or all are won, the calibration reflects the priors instead of failing.
     #[test]
     fn one_sided_months_are_calibrated() {
         for all in [false, true] {

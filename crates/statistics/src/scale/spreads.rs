@@ -2,9 +2,9 @@
 
 /// The model's standard deviations in logits, and two slopes.
 ///
-/// A game's difficulty for planners is normally distributed with mean 0 and standard deviation `game`. The
-/// difficulty for readers is the slope times the difficulty for planners, plus an independent remainder. The
-/// same model applies to levels.
+/// A game's difficulty for planners is normally distributed with mean 0 and standard deviation `game`. The difficulty
+/// for readers is the difficulty for planners multiplied by the slope, plus an independent remainder. The same model
+/// applies to levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spreads {
     /// For planners, the standard deviation of game difficulty.
@@ -17,7 +17,7 @@ pub struct Spreads {
     pub planner: f64,
     /// The increase in a game's difficulty for readers per logit of its difficulty for planners.
     pub game_slope: f64,
-    /// The increase in a level's difficulty for readers, within its game, per logit of its difficulty for
+    /// The increase in a level's difficulty for readers, relative to its game, per logit of its difficulty for
     /// planners.
     pub level_slope: f64,
     /// The standard deviation of the independent component of game difficulty for readers.
@@ -48,8 +48,8 @@ impl Default for Spreads {
 pub(super) const PLANNERS_ONLY: usize = 4;
 /// The number of parameters in a model with readers.
 pub(super) const WITH_READERS: usize = 9;
-/// The mean and the standard deviation of the prior for the logarithm of a standard deviation. Two standard
-/// deviations on either side of the mean span 0.14 to 7 logits.
+/// The mean and the standard deviation of the prior for the logarithm of a standard deviation. The range of two
+/// standard deviations on either side of the mean is 0.14 to 7 logits.
 const LOG_PRIOR: (f64, f64) = (0.0, 1.0);
 /// The mean and the standard deviation of the prior for a slope.
 const SLOPE_PRIOR: (f64, f64) = (0.0, 1.0);
@@ -65,8 +65,8 @@ impl Spreads {
         all
     }
 
-    /// Returns the spreads for the given parameters. If there are no parameters for readers, the readers'
-    /// spreads have their defaults.
+    /// Returns the spreads for the given parameters. If there are no parameters for readers, the spreads of readers
+    /// are the defaults.
     pub(super) fn from_parameters(parameters: &[f64]) -> Spreads {
         let sd = |at: usize| libm::exp(parameters[at]);
         let planners =
@@ -137,8 +137,7 @@ mod tests {
         assert!((planners.game - 2.0).abs() < 1e-12 && planners.reader == Spreads::default().reader);
     }
 
-    /// If the slopes are 1 and there is no independent component, levels are equally hard for readers and for
-    /// planners.
+    /// If the slopes are 1 and there is no independent component, levels are as hard for readers as for planners.
     #[test]
     fn correlations() {
         let same = Spreads {

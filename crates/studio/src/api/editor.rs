@@ -94,8 +94,8 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
         let is_floor = types.iter().all(|&stype| analysis.role(stype) == Role::Floor);
         json!({ "symbol": game.character(symbol), "types": names, "label": label, "tile": tile, "floor": is_floor })
     };
-    // The characters that the game maps come first, in its order, followed by the characters that map to a
-    // type of the game by default.
+    // The characters that the game maps come first, in the game's order. Characters that map to one of the game's
+    // types by default follow.
     let written = game.description().mapping.iter().filter_map(|line| u8::try_from(line.symbol).ok());
     let mut symbols: Vec<u8> = written.collect();
     let by_default = (b'!'..=b'~').filter(|symbol| !symbols.contains(symbol));
@@ -106,7 +106,7 @@ fn legend(compiled: &Compiled, tiles: &mut Tiles) -> Vec<Value> {
     symbols.into_iter().map(entry).collect()
 }
 
-/// Returns `true` if a game's text contains a word outside of comments.
+/// Returns `true` if a word occurs in a game's text outside of comments.
 fn is_named(source: &str, name: &str) -> bool {
     let code = source.lines().filter_map(|line| line.split('#').next());
     code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_')).any(|word| word == name)
@@ -153,7 +153,7 @@ pub(crate) struct Rename {
     source: String,
     at: usize,
     name: String,
-    /// The levels, which may also have to change if a character is renamed.
+    /// The levels, which must also change if a character that they use is renamed.
     #[serde(default)]
     levels: Vec<String>,
 }
@@ -184,7 +184,7 @@ pub(crate) fn rename(_: &Studio, asked: Rename) -> Result<Value, Refusal> {
     Ok(json!({ "edits": edits, "levels": levels.iter().map(of_level).collect::<Vec<_>>() }))
 }
 
-/// Returns `true` if the byte at this position is the character on a line in the game's LevelMapping.
+/// Returns `true` if a LevelMapping line starts at this byte, so that the byte is the mapped character.
 fn in_mapping(source: &str, byte: usize) -> bool {
     let (description, _) = engine::syntax::parse(source);
     description.mapping.iter().any(|line| line.span.start == byte)

@@ -121,8 +121,8 @@ pub(crate) fn verified(studio: &Studio, _: Asked<Nothing>, lines: &Lines) -> Res
     Ok(())
 }
 
-/// Follows the opened release's parents as far as they can be found, and sends each of them. Returns
-/// sentences about the parents, and the problems.
+/// Follows the parents of the opened release as far back as they can be found, and sends each of them. Returns
+/// sentences about the parents, and the problems with them.
 fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, Vec<String>), Ended> {
     let mut child = start.name.clone();
     let tell = &mut |ancestor: &Ancestor| {
@@ -185,8 +185,8 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     Ok((said, problems))
 }
 
-/// Returns the paths in which to search for releases before the opened one: the user-specified paths, the
-/// release to compare with, and the parent folders of both releases.
+/// Returns the paths in which to search for releases before the opened one. These are the paths specified by the
+/// user, the release to compare with, and the parent folders of both releases.
 fn places(workspace: &Workspace) -> Vec<PathBuf> {
     let against = workspace.against.as_ref().map(|(place, _)| place.clone());
     let beside: Vec<PathBuf> =

@@ -70,7 +70,7 @@ fn summary(evaluation: &Evaluation, task: &Task<'_>, index: usize) -> Result<Opt
 /// The messages exchanged at a decision.
 #[derive(Default, Serialize)]
 struct Talk {
-    /// The index of the frame shown to the player.
+    /// The index of the frame that the player saw.
     frame: usize,
     /// The messages that were new to the player.
     prompt: String,
@@ -80,7 +80,7 @@ struct Talk {
     reasoning: String,
     /// The action parsed from the responses, or `None` if no action was found.
     parsed: Option<String>,
-    /// The origin of the choice.
+    /// The validity of the answer in words, such as `valid` or `cut off`.
     validity: &'static str,
 }
 
@@ -171,8 +171,8 @@ fn talks(log: &[Event]) -> Vec<Talk> {
                 shown.push((*id, format!("{picture}{text}")));
             }
             Event::Request { messages, .. } => {
-                // When a conversation continues, a log repeats the texts of earlier levels. These repetitions
-                // are omitted here.
+                // If a conversation continues, the log repeats the texts of earlier levels. The repetitions are
+                // omitted here.
                 let is_shown = |id: &u32| [messages.first(), messages.last()].contains(&Some(id));
                 for (_, text) in shown.drain(..).filter(|(id, _)| is_shown(id)) {
                     add(&mut current.prompt, &text);

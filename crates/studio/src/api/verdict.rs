@@ -69,8 +69,8 @@ pub(crate) struct Necessity {
     levels: Vec<String>,
 }
 
-/// The number of forward-model calls for each level, for a game across all its levels, and for winning a new
-/// level.
+/// The number of forward-model calls for judging each level, for judging a game across all its levels, and for
+/// winning a new level.
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {
@@ -117,7 +117,7 @@ pub(crate) struct More {
 
 /// The maximum number of levels per request.
 const MOST_LEVELS: u32 = 20;
-/// The maximum number of levels to generate per requested level. It matters if a tier is requested, because
+/// The maximum number of levels to generate per requested level. The limit matters if a tier is requested, because
 /// generators do not aim at a tier.
 const TRIES: u32 = 4;
 
@@ -198,8 +198,8 @@ pub(crate) fn more(studio: &Studio, asked: Asked<More>, lines: &Lines) -> Result
     Ok(())
 }
 
-/// Returns a new level's winning episode, which comes from the level's judges, or from a search if the level
-/// was not judged. Also returns `true` if the episode is proved to be a shortest win.
+/// Returns a new level's winning episode. It comes from the level's judges or, if the level was not judged, from a
+/// search. Also returns `true` if the episode is proved to be a shortest win.
 fn known_win(compiled: &Compiled, made: &MadeLevel, seed: Seed, lines: &Lines) -> Option<(Episode, bool)> {
     if let Some(report) = &made.report {
         let win = report.witness.clone()?;

@@ -62,12 +62,11 @@ pub struct Judging {
     sources: Vec<String>,
     entries: Vec<Arc<Entry>>,
     seed: String,
-    /// For each pair, the indices of its left and right entries.
+    /// The pairs, each as the indices of its left and right entries.
     pairs: Vec<[usize; 2]>,
     keeper: Mutex<Keeper>,
     plays: Plays,
-    /// `true` once the judge has requested the report before the end. Judgements made after that are not
-    /// blind.
+    /// `true` once the judge has requested the report before the end of the session. Later judgements are not blind.
     ended: AtomicBool,
 }
 
@@ -121,8 +120,8 @@ impl Judging {
     ///
     /// # Errors
     ///
-    /// Returns an error if there are fewer than two sources, if a source has no games, or if the record cannot be read or
-    /// written.
+    /// Returns an error if there are fewer than two sources, if a source has no games, or if the record cannot be
+    /// read or written.
     pub fn open(
         sources: Vec<Source>,
         seed: &str,
@@ -195,8 +194,7 @@ impl Judging {
     /// Returns the two games in a pair, and the number of levels to show for each of them.
     fn both(&self, pair: [usize; 2]) -> ([&Candidate; 2], usize) {
         let both = pair.map(|at| &self.entries[at].candidate);
-        // The same number of levels is shown for both games, because different numbers could reveal the
-        // sources.
+        // Both games show the same number of levels, because different numbers could reveal the sources.
         let levels = both.iter().map(|candidate| candidate.levels.len()).min().unwrap_or_default();
         (both, levels)
     }
@@ -218,7 +216,7 @@ impl Judging {
         let Some(level) = candidate.levels.get(wanted.level).filter(|_| wanted.level < levels) else {
             return Err(Refusal::bad("there is no such level").help("load the page again"));
         };
-        // The text must be the text that the page plays.
+        // The text must be the one that the page plays.
         let compiled = cache.need(&source_of(candidate))?;
         let level = compiled.level(&level.to_string())?;
         let number = u64::try_from(wanted.pair).unwrap_or_default();
@@ -330,7 +328,7 @@ pub(crate) struct Asked {
 fn draw(counts: &[usize], seed: Seed, pairs: usize) -> Vec<[usize; 2]> {
     let first = |source: usize| counts[..source].iter().sum::<usize>();
     let mut draws = seed.child("pairs", 0).sampler();
-    // Each source's games are in a random order, which is redrawn whenever all of them have had their turn.
+    // The games of each source are in random order. The order is redrawn whenever every game has had its turn.
     let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); counts.len()];
     let combinations: Vec<[usize; 2]> =
         (0..counts.len()).flat_map(|a| (a + 1..counts.len()).map(move |b| [a, b])).collect();

@@ -39,8 +39,7 @@ pub enum Which {
 }
 
 impl Which {
-    /// Returns `true` or `false` for the left game and for the right game, depending on whether the statement
-    /// applies to it.
+    /// Returns `true` for each side to which the statement applies, in the order left, right.
     pub fn sides(self) -> [bool; 2] {
         [matches!(self, Which::Left | Which::Both), matches!(self, Which::Right | Which::Both)]
     }
@@ -56,7 +55,7 @@ pub struct Played {
     pub right: u64,
 }
 
-/// The games of which the judge has watched a program's episode.
+/// The games for which the judge has watched an episode played by a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Watched {
@@ -103,7 +102,7 @@ pub struct Judgement {
     /// The number of ticks played in each game.
     #[serde(default)]
     pub played: Played,
-    /// The games of which the judge has watched an episode.
+    /// The games for which the judge has watched an episode.
     #[serde(default)]
     pub watched: Watched,
     /// `true` if the judge had already requested the report, so the judgement is not blind.

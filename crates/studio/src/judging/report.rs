@@ -93,8 +93,8 @@ struct Counts {
 }
 
 impl Report {
-    /// Counts the judgements. Pairs are treated as independent, although pairs that share a game are not, so
-    /// the intervals are too narrow if there are few games.
+    /// Counts the judgements. Pairs are treated as independent, although pairs that share a game are not. If there
+    /// are few games, the intervals are therefore too narrow.
     pub fn of(Judgements(judgements): &Judgements) -> Report {
         let mut sources: BTreeMap<&str, Counts> = BTreeMap::new();
         let mut measures: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
@@ -190,7 +190,7 @@ mod tests {
         assert_eq!((theirs.again.count, theirs.again.of), (2, 5));
         assert_eq!((ours.machine.count, ours.machine.of), (1, 2));
         assert_eq!((theirs.machine.count, theirs.machine.of), (2, 2));
-        // The pace is equal in all games, so no pair says anything about it.
+        // The pace is the same in all games, so no pair provides evidence about it.
         let [drama] = &report.measures[..] else { panic!("{report:?}") };
         assert_eq!((drama.name.as_str(), drama.agrees, drama.pairs), ("drama", 2, 3));
     }

@@ -29,7 +29,7 @@ pub(crate) enum Hand {
     Right,
 }
 
-/// A level in a pair, of which an episode is to be watched.
+/// A request to watch an episode on a level of a game in a pair.
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
 pub(crate) struct Wanted {
     pub(super) pair: usize,
@@ -43,8 +43,8 @@ pub(crate) struct Play {
     pub(crate) note: Option<&'static str>,
 }
 
-/// Plays a level. Returns the win that a search finds, or, if it finds none, an episode played by a planner.
-/// Returns `None` once `gone` returns `true`. The same seed yields the same episode.
+/// Plays a level. Returns the win found by a search or, if there is none, an episode played by a planner. Returns
+/// `None` once `gone` returns `true`. The same seed yields the same episode.
 pub(super) fn play(
     compiled: &Compiled,
     level: &Level,
@@ -76,7 +76,7 @@ pub(super) fn play(
 pub(super) struct Plays(Mutex<VecDeque<(Wanted, Arc<Play>)>>);
 
 impl Plays {
-    /// Returns an episode that is already stored or is played now, or `None` if the work was cancelled.
+    /// Returns an episode that is already stored, or plays it now. Returns `None` if the work was cancelled.
     pub(super) fn find(&self, wanted: Wanted, make: impl FnOnce() -> Option<Play>) -> Option<Arc<Play>> {
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let known = lock().iter().find(|(known, _)| *known == wanted).map(|(_, play)| play.clone());

@@ -99,8 +99,8 @@ impl Log {
         faults
     }
 
-    /// Returns the faults in partial tiles from earlier states, which readers of those states may still use.
-    /// Ignores tiles larger than the checkpoint's, because an interrupted append may leave such tiles behind.
+    /// Returns the faults in partial tiles from earlier states, which readers of those states may still use. Tiles
+    /// larger than the checkpoint's are ignored, because an interrupted append may leave such tiles behind.
     fn earlier_faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for (place, parts) in tiles::parts(&self.entries, &self.leaves) {

@@ -76,7 +76,7 @@ impl Checkpoint {
         checkpoint
     }
 
-    /// Adds a witness's signature. The signature covers a time, in seconds since 1970.
+    /// Adds a witness's signature, which also covers a time, in seconds since 1970.
     pub fn cosign(&mut self, witness: &str, seconds: u64, secret: &SecretKey) {
         let signature = secret.sign_bare(self.cosigned(seconds).as_bytes());
         let hash = key_hash(witness, COSIGNATURE, &secret.public());

@@ -20,7 +20,7 @@ use serde::Serialize;
 pub enum Attainable {
     /// The termination holds at the end of the first tick in every level.
     AtOnce,
-    /// Playing the level may make the termination hold.
+    /// The termination may come to hold while a level is played.
     InPlay,
     /// The termination holds from the start of a level or never, because nothing changes its sprite count in
     /// the required direction.
@@ -120,7 +120,8 @@ impl PopulationChanges {
                     }
                 }
                 Some((_, Ending::Turned)) => {
-                    // A dead avatar stays on the board, and every such effect except `transformTo` turns it again.
+                    // A dead avatar stays on the board, where every such effect except `transformTo`
+                    // transforms it again.
                     let again = matches!(effect, EffectSummary::BecomeAny(_)) || turns_dead;
                     for &from in sides[0] {
                         effect.makes().iter().for_each(|&to| turn(from, to));
@@ -184,8 +185,8 @@ impl PopulationChanges {
     }
 }
 
-/// Returns `true` if the effects that turn their sprite into a different type also turn a dead avatar again
-/// in every tick. All such effects do so except `transformTo`, which has no condition and turns no other
+/// Returns `true` if the transforming effects among `effects` also transform a dead avatar again in every
+/// tick. All transforming effects do so except `transformTo`, which has no condition and transforms no other
 /// sprite.
 pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
     precondition == Precondition::Movement
@@ -194,7 +195,7 @@ pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) 
             .any(|effect| matches!(effect, EffectSummary::BecomeAny(_) | EffectSummary::BecomeAll(..)))
 }
 
-/// Returns `true` if sprites of the type disappear by themselves.
+/// Returns `true` if sprites of the type disappear on their own.
 pub(crate) fn disappears_by_itself(rules: &Rules, stype: SpriteType) -> bool {
     let info = &rules.types[stype.index()];
     let is_a = |class: SpriteClass| info.class.is_some_and(|own| own.is_a(class));

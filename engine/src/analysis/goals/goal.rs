@@ -17,7 +17,7 @@ pub enum Condition {
     AtLeast(Vec<SpriteType>, i32),
     /// Exactly this many sprites of these types are alive.
     Exactly(Vec<SpriteType>, i32),
-    /// This tick is reached.
+    /// The episode reaches this tick.
     Tick(i32),
 }
 
@@ -69,8 +69,8 @@ pub struct Goal {
     open: bool,
     /// The condition under which the termination holds.
     pub condition: Condition,
-    /// The number of distinct types that must have counted sprites, if the termination requires such a
-    /// number.
+    /// The required number of distinct types among the counted sprites, if the termination has such a
+    /// requirement.
     pub kinds: Option<i32>,
     /// The index of the termination's line in [`Description::terminations`](crate::Description).
     pub line: usize,
@@ -191,8 +191,8 @@ impl Analysis {
     }
 
     /// Returns `true` if the total number of sprites of these types never exceeds the number at the start of
-    /// a level: every effect that creates such a sprite uses up another. Most effects turn a dead avatar
-    /// again and again. Cost: O(encounters × types).
+    /// a level: every effect that creates such a sprite uses up another. Effects that transform a dead avatar
+    /// again in every tick do not meet this condition. Cost: O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);

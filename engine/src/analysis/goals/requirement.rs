@@ -143,7 +143,7 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
     list
 }
 
-/// Returns the requirements that a level has enough keys for one lock of each type.
+/// Returns the requirements that give a level enough keys for one lock of each type.
 fn keys(analysis: &Analysis) -> Vec<Requirement> {
     let mut list = Vec::new();
     for lock in &analysis.locks {

@@ -1,4 +1,4 @@
-//! The methods of winning a game: through the player's own actions or through other sprites.
+//! Methods of winning a game, either through the player's actions or through other sprites.
 
 use super::goal::Condition;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Side};
@@ -156,8 +156,8 @@ impl WinMethods<'_> {
         methods
     }
 
-    /// Returns `true` if a motionless type that wins by touch is a destination, rather than one of many items
-    /// to collect.
+    /// Returns `true` if a motionless type whose touch counts towards a win is a destination, rather than one
+    /// of many items to collect.
     fn is_like_an_exit(&self, stype: SpriteType) -> bool {
         let Analysis { game, aims, touches, .. } = self.analysis;
         let wanted = |stype: SpriteType| {

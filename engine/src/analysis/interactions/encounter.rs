@@ -5,7 +5,7 @@ use crate::rules::effects::{Ending, Target};
 use crate::rules::{Rules, SpriteType};
 use smallvec::SmallVec;
 
-/// A summary of one interaction line with one of its partners.
+/// A summary of one interaction line for one of its partners.
 #[derive(Clone, Debug)]
 pub struct Encounter {
     /// The first type, as written. The rule also holds for all its relatives (see
@@ -33,7 +33,8 @@ impl Encounter {
         self.effects.iter().any(wanted)
     }
 
-    /// Returns `true` if the first sprite is blocked: that sprite, or every sprite, moves back.
+    /// Returns `true` if the interaction blocks the first sprite by moving either that sprite or every sprite
+    /// back.
     pub fn blocks(&self) -> bool {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }

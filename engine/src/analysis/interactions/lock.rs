@@ -14,7 +14,7 @@ pub enum Key {
     Resource {
         /// The resource.
         resource: SpriteType,
-        /// The amount needed at the same time.
+        /// The amount that must be held at once.
         amount: i32,
         /// `true` if opening consumes the resource.
         spent: bool,
@@ -22,7 +22,7 @@ pub enum Key {
     /// The avatar must be of this type.
     Avatar(SpriteType),
     /// The avatar must have touched a sprite of the first type, or, if there is a second type, have pushed a
-    /// sprite of that type onto one of the first.
+    /// sprite of the second type onto a sprite of the first type.
     Switch(SpriteType, Option<SpriteType>),
 }
 
@@ -54,7 +54,7 @@ pub struct Resource {
     /// The types that consume the resource on contact, each with the maximum amount that one of its sprites
     /// takes.
     pub takers: Vec<(SpriteType, i32)>,
-    /// The maximum amount that an interaction requires at the same time, or 0 if no interaction requires the
+    /// The maximum amount that any interaction requires at once, or 0 if no interaction requires the
     /// resource.
     pub needed: i32,
     /// `true` if some sprite can ever hold the needed amount.
@@ -74,7 +74,8 @@ pub enum Fate {
     Goes,
 }
 
-/// A collision of a pushed sprite with a partner that removes or changes either sprite, or opens something.
+/// A collision between a pushed sprite and a partner. The collision removes or changes either sprite, or
+/// opens something.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sink {
     /// The partner: a sprite on the cell, or another pushable sprite.
@@ -215,8 +216,8 @@ pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
     changes(facts, touches, |by| by)
 }
 
-/// Returns, for each resource, the types whose touch changes its amount. `share` converts a change into a
-/// number, and each type comes with its maximum number. Types without a positive number are omitted.
+/// Returns, for each resource, the types whose touch changes its amount. `share` maps each change to a
+/// number. Each type is paired with its highest number, and types without a positive number are omitted.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
     for (stype, _) in (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible) {
@@ -271,7 +272,8 @@ pub(crate) fn locks(
         } else if still {
             let later = avatars.iter().zip(touches).skip(1).find_map(|(avatar, row)| {
                 let then = &row[stype.index()];
-                // An avatar that keeps flying by itself, or that the touch transforms, has not passed.
+                // An avatar that keeps moving on its own, or that the touch transforms, does not count as
+                // having passed.
                 let settled = avatar.steering != Steering::Unsteered && then.becomes.is_none();
                 let opens = then.ends_other() && !first.ends_other() && then.harm == Harm::None;
                 let passes = guards && then.lets_pass() && !first.ends_other();
@@ -290,8 +292,8 @@ pub(crate) fn locks(
     locks
 }
 
-/// Returns, for each type, the switch that removes all its sprites. A switch is either a sprite to touch or a
-/// sprite to fill with a pushed sprite. The latter take precedence.
+/// Returns, for each type, the switch that removes all its sprites. A switch is either touched by the avatar
+/// or filled with a pushed sprite. Switches that are filled take precedence.
 fn switches(
     types: usize,
     touches: &Touches,

@@ -32,9 +32,9 @@ impl<'a> Pairs<'a> {
         Pairs { rules, encounters, groups: groups.filter_map(group).collect() }
     }
 
-    /// Visits the interactions of a type with every other type, in the order of a tick. `visit` receives the
-    /// other type, the side of `own`, and the interaction. If the type matches both sides, the side is the
-    /// first.
+    /// Visits the interactions of a type with every other type, in the order in which a tick checks them.
+    /// `visit` receives the other type, the side of `own`, and the interaction. If the type matches both
+    /// sides, the side is the first.
     pub(crate) fn with(&self, own: SpriteType, mut visit: impl FnMut(SpriteType, Side, &Encounter)) {
         let mut seen = vec![0u16; self.rules.types.len()];
         let mut visit = |group: &Group<'_>, other: SpriteType, side: Side| {
@@ -61,7 +61,8 @@ impl<'a> Pairs<'a> {
         }
     }
 
-    /// Returns the types, as written, against which some interaction of `own` can shield it.
+    /// Returns the types, as written in the rules, against which some interaction can shield sprites of
+    /// `own`.
     pub(crate) fn shields(&self, own: SpriteType) -> Vec<SpriteType> {
         let concerned =
             self.encounters.iter().filter(|encounter| self.rules.types[encounter.first.index()].in_tree(own));

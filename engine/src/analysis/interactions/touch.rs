@@ -60,8 +60,8 @@ pub struct Touch {
     pub teleports: bool,
     /// The types whose sprites are all removed or changed, wherever they are.
     pub opens: Vec<SpriteType>,
-    /// The types of the sprites that appear, including the type that the avatar turns into, if a win requires
-    /// that type.
+    /// The types of the sprites that appear. The type that the avatar turns into is included only if a win
+    /// requires it.
     pub makes: Vec<SpriteType>,
     /// The sum of the score changes.
     pub score: i32,

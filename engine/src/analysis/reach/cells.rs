@@ -68,8 +68,8 @@ impl Board {
         Cells::of(self, (0..self.size()).filter(|&cell| self.is_ring(cell)))
     }
 
-    /// Returns all cells within this number of columns and rows from `cells`. Cost: O(cells), regardless of
-    /// the distance.
+    /// Returns all cells within `distance` columns and rows of `cells`. Cost: O(cells), regardless of the
+    /// distance.
     pub(super) fn around(self, cells: &Cells, distance: i32) -> Cells {
         if distance == 0 {
             return cells.clone();
@@ -126,7 +126,7 @@ impl Cells {
         self.0.iter().all(|&word| word == 0)
     }
 
-    /// Removes the cells in `others` that are in neither of the `kept` sets.
+    /// Removes every cell of `others` that is in neither of the `kept` sets.
     pub(super) fn drop_unless(&mut self, others: &Cells, kept: [&Cells; 2]) {
         for (at, word) in self.0.iter_mut().enumerate() {
             *word &= !others.0[at] | kept[0].0[at] | kept[1].0[at];
@@ -190,7 +190,7 @@ impl Directions {
     /// No direction, for sprites that have no orientation or have not moved.
     pub(super) const UNSET: Directions = Directions(32);
     pub(super) const FOUR: Directions = Directions(15);
-    /// Every direction.
+    /// Every direction, on or off the grid axes.
     pub(super) const ANY: Directions = Directions(31);
     /// Every direction, including no direction.
     pub(super) const ALL: Directions = Directions(63);

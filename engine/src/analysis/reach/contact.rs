@@ -1,4 +1,4 @@
-//! The effects of makers and collisions on the mobility of types.
+//! The effects of sprite creation and collisions on the mobility of types.
 
 use super::cells::Directions;
 use super::meetings::Meeting;
@@ -269,11 +269,12 @@ impl Model<'_> {
         if takes {
             new.facing = new.facing.with(old.facing);
         }
-        // For a moment, the sprite has the last move of the old type and the orientation of the new type.
+        // For a moment, the sprite combines the last move of the old type with the orientation of the new
+        // type.
         (new.straight, new.moved_any_distance) = (false, true);
     }
 
-    /// Accounts for movement at another sprite's speed.
+    /// Accounts for a sprite being carried at another sprite's speed.
     fn carry(&self, one: SpriteType, two: Option<SpriteType>, new: &mut Mobility) {
         let distance = two.map_or(1.0, |two| self.carried(one, two));
         new.boundless |= self.is_out_of_range(distance);

@@ -173,8 +173,8 @@ impl Events<'_> {
         if !turns || !own.is_steady() {
             return;
         }
-        // By the end of the tick the sprite may be back at its previous position, or wherever else something has moved
-        // it.
+        // By the end of the tick, the sprite may be back at its previous position, or anywhere that something
+        // has moved it.
         let far = own.stride.max(model.pushed_far(one)).saturating_add(model.spread(one));
         let far = if own.placed || own.moved_any_distance {
             self.board().side() + 2
@@ -205,7 +205,7 @@ impl Events<'_> {
         // A negative speed moves the sprite up.
         let signs: &[i32] = if own.backwards { &[1, -1] } else { &[1] };
         for cell in from.iter() {
-            // The further outside the board a sprite starts, the less far it gets into the board.
+            // A sprite that starts further outside the board gets less far into it.
             let least = if exact && !board.is_ring(cell) { 2 } else { 1 };
             for (&sign, times) in signs.iter().flat_map(|sign| (least..=most).map(move |times| (sign, times)))
             {

@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 /// An amount of a resource that counts as unlimited: more than any rule requires.
 const PLENTY: i64 = i64::MAX;
 
-/// The sprites that a level places, by type: each cell with the number of sprites of the type in it.
+/// For each type, the cells in which a level places its sprites, each with the number of sprites in that
+/// cell.
 pub(super) type Placed = Vec<Vec<(usize, u32)>>;
 
 /// Applies the effects of collisions until nothing changes.
@@ -107,13 +108,14 @@ impl<'a> Events<'a> {
         cells.iter().for_each(|cell| self.flood.appear(stype, cell, at, heading));
     }
 
-    /// Adds sprites that appear through an effect and get no orientation.
+    /// Adds sprites that an effect creates without giving them an orientation.
     pub(super) fn spawn_in(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.born(stype);
         self.appear_in(stype, cells, at, heading);
     }
 
-    /// Moves sprites to cells through an effect. The sprites may face any of their possible directions.
+    /// Moves sprites to cells as the result of an effect. The sprites may face any of their possible
+    /// directions.
     pub(super) fn come_to(&mut self, stype: SpriteType, cells: &Cells, at: Order) {
         let heading = self.flood.model.of_type(stype).facing;
         cells.iter().for_each(|cell| self.flood.come(stype, cell, at, heading));

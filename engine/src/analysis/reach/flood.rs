@@ -16,7 +16,7 @@ const BUDGET: u64 = 1 << 23;
 pub(super) struct Region {
     /// The cells that a sprite can overlap at some point in a tick.
     pub(super) touch: Cells,
-    /// The cells in `touch` to which something other than its own update can move a sprite.
+    /// The cells in `touch` to which something other than a sprite's own update can move the sprite.
     late: Cells,
     /// The cells that a sprite can overlap between two ticks.
     pub(super) rest: Cells,
@@ -50,8 +50,7 @@ pub(super) struct Flood<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) board: Board,
     pub(super) regions: Vec<Region>,
-    /// For each type, the cells that its sprites occupy from the start and, as far as is known so far,
-    /// forever.
+    /// For each type, the cells that its sprites occupy from the start and, as far as is known, permanently.
     pub(super) permanent: Vec<Cells>,
     /// For each type, the cells where a sprite can be removed.
     pub(super) removable: Vec<Cells>,
@@ -214,8 +213,8 @@ impl<'a> Flood<'a> {
         wraps
     }
 
-    /// Returns `true` if the type's sprites that a level places fill their cells until something removes
-    /// them.
+    /// Returns `true` if sprites of the type, when placed by a level, fill their cells until something
+    /// removes them.
     fn can_be_firm(&self, stype: SpriteType) -> bool {
         let info = self.model.info(stype);
         let traits = &info.traits;
@@ -375,8 +374,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a falling and jumping sprite that enters a cell by itself. `rise` is the number of rows that the
-    /// sprite can still rise from there, or `None` if the sprite only passes through.
+    /// Adds a falling and jumping sprite that enters a cell by its own movement. `rise` is the number of rows
+    /// that the sprite can still rise from there, or `None` if the sprite only passes through.
     pub(super) fn rise_to(&mut self, stype: SpriteType, cell: usize, rise: Option<i32>, at: Order) {
         self.touch(stype, cell, Order::UPDATE);
         let Some(rise) = rise.filter(|_| !self.is_barred(stype, cell, at, false)) else { return };

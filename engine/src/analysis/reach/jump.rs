@@ -5,8 +5,8 @@
 //!
 //! The avatar moves upwards only after a jump. A jump sets the upward speed to `strength / mass`, whatever
 //! the speed was before, and lifts the avatar by 5 pixels at once. Gravity subtracts `gravity` in each tick.
-//! Friction and the speed limit can only reduce the speed further. A wall beside the avatar can restore the
-//! speed `gravity` once, when the avatar comes to rest.
+//! Friction and the speed limit can only reduce the speed further. A wall beside the avatar can restore a
+//! speed of `gravity` once, when the avatar comes to rest.
 //!
 //! The avatar therefore rises above the position where it last stood on something solid by at most
 //!
@@ -57,7 +57,7 @@ pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
 /// would not.
 fn breaks_gravity_bound(model: &Model<'_>, stype: SpriteType, meeting: &Meeting<'_>) -> bool {
     let summary = meeting.summary(model.rules);
-    // A new sprite may take over an orientation.
+    // A new sprite may inherit an orientation.
     if summary.makes().contains(&stype) {
         return true;
     }

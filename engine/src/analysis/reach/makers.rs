@@ -1,4 +1,4 @@
-//! The sprites that types create by themselves, and the cells in which they appear.
+//! The sprites that types create on their own, and the cells in which those sprites appear.
 
 use super::cells::{Cells, Directions};
 use super::events::Events;
@@ -33,7 +33,7 @@ impl Events<'_> {
         }
     }
 
-    /// Returns the directions that a new sprite gets from a maker with these directions.
+    /// Returns the directions that a maker facing in these directions gives to a new sprite.
     fn given(&self, maker: SpriteType, made: SpriteType, facing: Directions) -> Directions {
         let model = self.flood.model;
         let born = model.born(made);
@@ -48,8 +48,8 @@ impl Events<'_> {
         }
     }
 
-    /// Returns the cells in which the sprites that a type creates appear, with the maker's orientation at
-    /// that point.
+    /// Returns the cells in which new sprites appear when a type creates them, with the maker's orientation
+    /// at that point.
     fn spawn_cells(&self, maker: SpriteType) -> Vec<(Cells, Directions)> {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -83,7 +83,7 @@ impl Events<'_> {
         }
     }
 
-    /// Returns the cells one body length ahead, for each of these directions.
+    /// Returns, for each of these directions, the cells one body length ahead in that direction.
     fn ahead(&self, from: &Cells, facing: Directions, grown: i32) -> Vec<(Cells, Directions)> {
         let board = self.board();
         if facing.meets(Directions::ASKEW) {

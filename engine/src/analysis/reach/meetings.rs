@@ -109,8 +109,7 @@ impl Meeting<'_> {
     }
 }
 
-/// Returns all collisions in the possible futures, given the timed effects, or `None` if there are too
-/// many.
+/// Returns all collisions and timed effects in the possible futures, or `None` if there are too many.
 pub(super) fn meetings<'a>(
     rules: &Rules,
     futures: &PossibleFutures<'a>,

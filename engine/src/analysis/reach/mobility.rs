@@ -8,8 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::effects::{EffectSummary, Summary};
 
-/// The maximum number of cells that a sprite may cross per tick off the grid axes. A faster sprite is assumed
-/// to reach any cell.
+/// The maximum speed off the grid axes, in cells per tick. A faster sprite is assumed to reach any cell.
 const MAX_STRIDE: f64 = 4.0;
 
 /// The mobility of a type's sprites: how they move and are moved.
@@ -66,7 +65,7 @@ impl Mobility {
 }
 
 impl Model<'_> {
-    /// Returns a type's mobility without the influence of other types.
+    /// Returns a type's mobility, disregarding the influence of other types.
     pub(super) fn alone(&self, stype: SpriteType) -> Mobility {
         use ClassFamily as Family;
         use SpriteClass as C;
@@ -112,7 +111,7 @@ impl Model<'_> {
         if draws { Directions::FOUR } else { Directions::of(info.traits.orientation) }
     }
 
-    /// Computes the directions and distances by which a type's own update moves its sprites.
+    /// Computes the directions and distances in which a type's own update moves its sprites.
     pub(super) fn move_by_itself(&mut self, stype: SpriteType) {
         use ClassFamily as Family;
         use SpriteClass as C;

@@ -26,9 +26,9 @@
 //!   stops no sprite.
 //! - With continuous physics, a sprite whose velocity is changed by forces counts as flying: it moves in any
 //!   direction, as far per tick as its maximum speed allows. An avatar that falls and jumps (see `jump.rs`)
-//!   gets no higher above the ground than a jump lifts it, but in the air it moves sideways without limit.
-//! - Keys are counted, but the cost of opening counts only if every removal that a win needs takes some of
-//!   the same resource (`payment`).
+//!   rises no higher above the ground than a jump lifts it, but moves sideways in the air without limit.
+//! - Keys are counted, but the cost of using them is considered only if every removal that a win needs takes
+//!   some of the same resource (`payment`).
 //!
 //! The algorithm has four steps:
 //!
@@ -76,9 +76,9 @@ use reasons::chain::Chains;
 pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Unreachable};
 use reasons::tally::Tally;
 
-/// The cells of one level in which sprites of each type can ever be. They are a proven over-approximation:
-/// sprites are never in any other cell. Time, harm and crowding are ignored, so everything that can be opened
-/// counts as open, and nothing stays in the way.
+/// For each type, the cells of one level in which its sprites can ever be. The cells are a proven
+/// over-approximation: sprites are never in any other cell. Time, harm and crowding are ignored, so
+/// everything that can be opened counts as open, and nothing stays in the way.
 ///
 /// Cells are indices into [`Level::cells`], row-major. A sprite is in every cell that it overlaps.
 #[derive(Clone, Debug)]
@@ -176,7 +176,7 @@ impl Analysis {
     /// Computes the cells of a level in which sprites of each type can ever be.
     ///
     /// Cost: O(types × cells + meetings × cells / 64) for each round in which locks open one after the other.
-    /// Typical levels take less than a millisecond, and the largest levels some hundredths of a second.
+    /// Typical levels take less than a millisecond, and the largest levels a few hundredths of a second.
     /// Beyond a fixed amount of work, which takes a few tenths of a second, the result is
     /// [coarse](Reach::is_coarse).
     pub fn reach(&self, level: &Level) -> Reach {
@@ -230,8 +230,7 @@ impl Analysis {
         PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }
 
-    /// Runs the fixed point to the end and passes it to `read`. Returns `None` if the work budget is
-    /// exceeded.
+    /// Computes the fixed point and passes it to `read`. Returns `None` if the work budget is exceeded.
     fn settled<T>(
         &self,
         futures: &PossibleFutures<'_>,

@@ -10,8 +10,8 @@ use crate::rules::effects::{Displacement, EffectSummary, Redirection};
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use std::collections::BTreeSet;
 
-/// The maximum number of collisions to process in all rounds of the fixed point. Typical games require some
-/// hundreds.
+/// The maximum number of collisions to process in all rounds of the fixed point. Typical games require a few
+/// hundred.
 const MAX_STEPS: usize = 1 << 21;
 
 /// The derived facts about all types.
@@ -23,11 +23,11 @@ pub(super) struct Model<'a> {
     /// For each type, whether its sprites can appear during an episode.
     pub(super) made: &'a [bool],
     pub(super) meetings: &'a [Meeting<'a>],
-    /// For each type, the types that its sprites create by themselves, each with the required ammunition.
+    /// For each type, the types that its sprites create on their own, each with the required ammunition.
     pub(super) makes: Vec<Vec<(SpriteType, Option<SpriteType>)>>,
-    /// For each type, the types to which touching its sprites leads.
+    /// For each type, the types to which its sprites lead when touched.
     pub(super) exits: Vec<Vec<SpriteType>>,
-    /// For each type, whether sprites can hold more of it as a resource than its limit.
+    /// For each type, whether sprites can hold it as a resource beyond its limit.
     pub(super) unlimited: Vec<bool>,
     pub(super) mobility: Vec<Mobility>,
     /// The size of the smallest sprite, in cells.

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 /// The cell size, in pixels, on a board of the usual size.
 const USUAL_BLOCK: i32 = 40;
 
-/// The way in which a type's sprites move by themselves.
+/// The way in which a type's sprites move on their own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// The sprites do not move.
@@ -85,8 +85,8 @@ impl Avatar {
 pub struct Facts {
     /// `true` if the type has a class, so that its sprites can exist.
     pub concrete: bool,
-    /// `true` if sprites of the type can be on the board at some time: placed by a level, or made from existing
-    /// sprites. Levels are assumed not to use characters that the game leaves unused: see
+    /// `true` if sprites of the type can be on the board at some time: placed by a level, or created from
+    /// existing sprites. Levels are assumed not to use characters that the game leaves unused: see
     /// [`Analysis::can_exist`](crate::analysis::Analysis::can_exist).
     pub possible: bool,
     /// The level characters that place the type, sorted by the number of sprites that they place, then by
@@ -184,7 +184,7 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     facts
 }
 
-/// Returns, for each type, whether the player's avatar can have the type in some level, regardless of the
+/// Returns, for each type, whether the player's avatar can be of that type in some level, regardless of the
 /// characters that the level uses. The avatar is determined when a level starts. From then on, the player
 /// controls whatever the avatar turns into.
 fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
@@ -284,8 +284,8 @@ pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }
 
-/// Returns the possible types of the player's avatar, first the types that levels place, then the others,
-/// each sorted by type. The list is empty if the engine finds no avatar among the placed types.
+/// Returns the possible types of the player's avatar: first the types that levels place, then the others,
+/// with each group sorted by type. The list is empty if the engine finds no avatar among the placed types.
 pub(crate) fn avatars(rules: &Rules, facts: &[Facts]) -> Vec<Avatar> {
     use ClassFamily as Family;
     use SpriteClass as C;

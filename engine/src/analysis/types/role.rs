@@ -28,8 +28,8 @@ pub enum Role {
     /// A motionless type that blocks or harms the avatar until the avatar holds something, does something or
     /// changes its type.
     Gate,
-    /// A type that moves by itself, blocks the avatar, and kills only when it moves in certain ways, such as
-    /// a falling rock.
+    /// A type, such as a falling rock, that moves on its own, blocks the avatar, and kills only when it moves
+    /// in certain ways.
     Boulder,
     /// A type that moves by itself and harms the avatar or a protected type, takes the avatar's resources, or
     /// creates sprites with any of these properties. However, a type that the avatar catches unharmed for a
@@ -42,7 +42,7 @@ pub enum Role {
     Hazard,
     /// A motionless type that creates other sprites by itself.
     Spawner,
-    /// A type whose loss loses the game, or that moving sprites must be kept away from.
+    /// A type whose loss loses the game, or from which moving sprites must be kept away.
     Ward,
     /// A type that must be removed for a win: by a shot, by other sprites, or by the avatar's touch while the
     /// sprite moves.
@@ -181,15 +181,15 @@ impl Analysis {
             || self.touches.iter().any(creates)
     }
 
-    /// Returns `true` if the type removes pushed sprites, and the removal is required, uses the type up, or
-    /// is harmless.
+    /// Returns `true` if pushing a sprite onto the type has an effect that a win requires, that fills the
+    /// type, or that opens something. Also returns `true` if such a type neither harms nor blocks the avatar.
     fn is_socket(&self, stype: SpriteType, harm: Harm) -> bool {
         self.pushables.iter().any(|pushable| {
             let Some(sink) = pushable.sinks.iter().find(|sink| sink.partner == stype) else { return false };
             let asked = [pushable.stype, stype].iter().any(|stype| self.aims.remove.contains(stype));
             let made = matches!(sink.fate, Fate::Becomes(to) if self.aims.create.contains(&to));
             let harmless = harm == Harm::None && self.touches.iter().all(|row| !row[stype.index()].blocks);
-            // A type that levels do not place, such as a flood, is dammed, not filled.
+            // A type that levels do not place, such as a flood, is dammed rather than filled.
             let fills = sink.fills && (harm == Harm::None || !self.facts[stype.index()].symbols.is_empty());
             asked || made || fills || !sink.opens.is_empty() || harmless
         })

@@ -27,7 +27,7 @@ pub(in crate::compile) const COMMON: &[&str] = &[
     "sequential",
 ];
 
-/// The state of compiling one line.
+/// The state of the compiler for one line.
 pub(in crate::compile) struct Reader<'a> {
     pub(super) line: &'a InteractionLine,
     pub(super) names: Names<'a>,
@@ -114,7 +114,8 @@ impl<'a> Reader<'a> {
         words.any(|word| word.text.eq_ignore_ascii_case("TIME"))
     }
 
-    /// Returns `true` if the reference ignores unknown parameters, as on lines with TIME or addTimer.
+    /// Returns `true` if the reference ignores unknown parameters on this line, as it does on lines with TIME
+    /// or addTimer.
     pub(in crate::compile) fn is_silent(&self) -> bool {
         let line = self.line;
         let words = line.second.iter().chain([&line.first, &line.effect]);

@@ -42,7 +42,8 @@ pub(crate) enum Undeclared {
     Void,
 }
 
-/// Declares the effects once, sorted: each keyword, and the effect built from its arguments.
+/// Declares the effects once, sorted by keyword. Each entry contains its keywords and the effect built from
+/// the arguments.
 macro_rules! effects {
     ($keyword:ident, $args:ident; $($($name:literal)|+ => $effect:expr,)*) => {
         /// The keywords, for comparison with [`crate::keywords::EFFECTS`].
@@ -200,7 +201,7 @@ fn speed(args: &mut impl Arguments, default: f64, how: SpeedChange) -> Effect {
     Effect::ChangeSpeed { stype: args.sprite("stype"), value: args.number("value", default), how }
 }
 
-/// Returns the type that a parameter of subtractHealthPoints or removeScore names, if any.
+/// Returns the type named by a parameter of subtractHealthPoints or removeScore, if any.
 fn subject(args: &mut impl Arguments, undeclared: Undeclared) -> Option<SpriteType> {
     let numbered = args.numbered("itype");
     args.optional_sprite("stype", undeclared).or(numbered)

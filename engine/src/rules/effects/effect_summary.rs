@@ -48,12 +48,12 @@ pub enum EffectSummary {
     Teleport,
     /// The first sprite reappears at the opposite edge.
     Wrap,
-    /// The speed changes, either of sprites of this type and its relatives or, if the type is `None`, of the
-    /// first sprite alone.
+    /// The speed of all sprites of this type and its relatives changes. If the type is `None`, only the first
+    /// sprite's speed changes.
     Speed(Option<SpriteType>),
     /// A sprite of this type appears.
     Make(SpriteType),
-    /// Another sprite like the first sprite appears.
+    /// Another sprite of the first sprite's type appears.
     Clone,
     /// The second sprite collects the first sprite as a resource, and gains its `value`, up to the limit.
     Collect,
@@ -92,12 +92,12 @@ pub(crate) enum Target {
     Side(Side),
     /// Every sprite of exactly this type.
     All(SpriteType),
-    /// One sprite, or every sprite, of this type and its relatives. If there are none, the target may be the
-    /// first sprite.
+    /// Either one sprite or every sprite of this type or a related type. If there are no such sprites, the
+    /// first sprite may be the target instead.
     Tree(SpriteType),
 }
 
-/// An effect's way of removing sprites from their type.
+/// The way in which an effect removes sprites from their type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
     /// The sprites are removed.
@@ -110,7 +110,7 @@ pub(crate) enum Ending {
     Health { by: i32, dies_at: i32 },
 }
 
-/// The possible moves caused by an effect.
+/// A move caused by an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Movement<'a> {
     /// The first sprite moves back to its previous position.

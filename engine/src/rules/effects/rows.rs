@@ -406,7 +406,7 @@ impl Effect {
                 shield: Some((stype, keyword)),
                 ..Summary::of(Family::Shield)
             },
-            // A disabled effect still draws, but its draws decide nothing.
+            // A disabled effect still draws random numbers, but its draws decide nothing.
             Effect::Disabled(ref summary) => Summary::of(summary.family),
         }
     }

@@ -21,7 +21,8 @@ pub(crate) struct Sentence {
     /// The template for a timed effect. The placeholder `{alone}` in [`Sentence::meeting`] stands for this
     /// template.
     pub(crate) alone: &'static str,
-    /// The words that introduce the points, if their condition differs from that in the sentence.
+    /// The words that introduce the points, if the condition for awarding them differs from that in the
+    /// sentence.
     pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
@@ -36,7 +37,7 @@ const NOTHING: &str = "when {one} {one:touch|touches} {two}, nothing happens";
 const SWAP: &str =
     "when {one} {one:touch|touches} {two}, every {type} turns into {to}, and every {other} into {back}";
 
-/// The text with which a probability starts.
+/// The text that introduces a probability.
 pub(crate) const CHANCE: &str = " with a chance of ";
 
 /// The value of a placeholder.
@@ -93,23 +94,23 @@ impl Sentence {
         Sentence { alone, ..self }
     }
 
-    /// Sets the condition for the points.
+    /// Sets the condition for awarding the points.
     fn scored(self, if_scored: &'static str) -> Sentence {
         Sentence { if_scored, ..self }
     }
 
-    /// Sets the condition for the points: the first sprite is removed.
+    /// Sets the condition for awarding the points: the first sprite is removed.
     fn scored_if_killed(self) -> Sentence {
         self.scored("if {one:you die|it disappears}, ")
     }
 
-    /// Sets the condition for the points: any contact, regardless of the outcome.
+    /// Sets the condition for awarding the points: any contact, regardless of the outcome.
     fn scored_always(self) -> Sentence {
         self.scored("in any case, ")
     }
 
-    /// Awards the points at every contact, and says so in the text if the effect itself happens only with a
-    /// probability.
+    /// Awards the points on every contact, and says so in the text if the effect itself happens only with a
+    /// certain probability.
     fn scored_if(self, prob: f64) -> Sentence {
         if prob < 1.0 { self.scored_always() } else { self }
     }
@@ -164,8 +165,8 @@ fn recorded() -> impl Iterator<Item = Effect> {
         .map(effect)
 }
 
-/// Returns the sentences for all effects, without duplicate templates. Each comes with the summary of one
-/// effect that uses its template.
+/// Returns the sentences for all effects, without duplicate templates. Each sentence is paired with the
+/// summary of one effect that uses its template.
 pub(crate) fn sentences() -> Vec<(Sentence, Summary)> {
     let mut found: Vec<(Sentence, Summary)> = Vec::new();
     for effect in recorded() {

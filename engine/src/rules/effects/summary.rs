@@ -8,7 +8,8 @@ use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::named_enum! {
-    /// An effect's family: the groups in the engine's ontology, except that movement is split by its result.
+    /// An effect's family. The families are the groups in the engine's ontology, except that movement is
+    /// split by its result.
     pub enum EffectFamily {
         /// Removes sprites, optionally under a condition.
         Kill = "kill",
@@ -82,7 +83,7 @@ pub(crate) struct Summary {
     pub(crate) spot: Option<Spot>,
     /// `true` if a transformed sprite keeps its orientation, regardless of the two types.
     pub(crate) forces_orientation: bool,
-    /// `true` if the transformed first sprite faces opposite to the partner's direction.
+    /// `true` if the transformed first sprite faces in the opposite direction to the partner.
     pub(crate) takes_orientation: bool,
     /// The resource that a collision gives.
     pub(crate) gives: Option<Gives>,
@@ -130,9 +131,9 @@ pub(crate) enum Draws {
     Nothing,
     /// Draws one of the four directions.
     Direction,
-    /// Decides whether something happens, with this probability.
+    /// Decides with this probability whether something happens.
     Chance(f64),
-    /// Decides whether something happens, with this probability, if both sprites are oriented.
+    /// Decides with this probability whether something happens, if both sprites are oriented.
     ChanceIfOriented(f64),
     /// Draws one of the given number of types.
     OneOf(usize),
@@ -162,7 +163,7 @@ pub(crate) enum Displacement {
     InLine,
     /// One step in the direction of the partner's move.
     Pushed,
-    /// One step along with the partner and, if `onto` is set, then to the partner's position.
+    /// One step along with the partner, followed by a move to the partner's position if `onto` is set.
     Carried { onto: bool },
     /// The exit to which the partner leads.
     Exit,
@@ -255,7 +256,7 @@ pub(crate) enum Provided {
     Always,
 }
 
-/// An effect's way of moving the first sprite back, without any other consequence.
+/// The way in which an effect moves the first sprite back without any other consequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PutBack {
     ToLastPlace,

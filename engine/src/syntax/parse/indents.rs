@@ -49,7 +49,7 @@ pub(crate) fn outside(section: Section, head: usize, lines: &[&Line<'_>], proble
     }
 }
 
-/// In a section without subtypes, reports lines that are not indented like most of its lines.
+/// Reports lines that are not indented like most lines of their section. The section must not have subtypes.
 pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let indent = usual(inside);
@@ -63,8 +63,8 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
 }
 
 /// Reports SpriteSet lines whose indent lies between the columns of the other lines, which makes them
-/// children or siblings by accident. Returns `true` if the lines are indented in columns; if they are not,
-/// reports nothing.
+/// children or siblings by accident. Returns `true` if the lines' indentation is aligned to columns. If it is
+/// not, reports nothing.
 pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
     let above: Vec<usize> = indents().map(|indent| indent - head).collect();
@@ -121,7 +121,8 @@ fn runs<'a, 'b, 'c>(
     runs
 }
 
-/// Returns a note about indents with tabs, which may look wider than the single column that each tab counts.
+/// Returns a note about indents with tabs. Such an indent may look wider than it is, because each tab counts
+/// as a single column.
 pub(crate) fn of_tabs(line: &Line<'_>) -> &'static str {
     if line.tabbed { ": a tab counts as one column" } else { "" }
 }

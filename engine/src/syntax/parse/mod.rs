@@ -34,7 +34,7 @@ pub fn parse_as_reference(source: &str) -> (Description, Vec<Diagnostic>) {
 }
 
 /// Reads a game file. The tree contains every line that could be read. The diagnostics, sorted by position,
-/// cover all others.
+/// cover all other lines.
 ///
 /// Cost: linear in the text's length. A text longer than [`MAX_SOURCE`](crate::MAX_SOURCE) bytes yields one
 /// diagnostic and an empty tree.

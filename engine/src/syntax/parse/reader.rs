@@ -9,7 +9,7 @@ use crate::syntax::description::Description;
 pub(super) struct Reader {
     pub(super) description: Description,
     pub(super) problems: Vec<Diagnostic>,
-    /// `true` if the SpriteSet lines are indented in columns. In that case, deviating lines have already
-    /// been reported.
+    /// `true` if the indentation of the SpriteSet's lines is aligned to columns. In that case, lines that
+    /// deviate have already been reported.
     pub(super) columns: bool,
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-/// Returns the parameter that a word was meant as, if its `=` is missing or replaced by a different
+/// Returns the parameter that a word was meant to be, if its `=` is missing or replaced by a different
 /// character: `limit:5`, `scoreChange-1`, `winTrue`.
 pub(crate) fn parameter(word: &str) -> Option<String> {
     let (key, value) = match word.split_once([':', ';', '-', '+', '~', '>', '<', '_']) {

@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
-/// Kills the sprite if `hit` is `true`. The score applies only if it does.
+/// Kills the sprite if `hit` is `true`. The score applies only in that case.
 pub(super) fn when(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, hit: bool) {
     step.apply_score(index, hit);
     if hit {

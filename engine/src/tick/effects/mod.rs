@@ -159,7 +159,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_, impl Scheduler>, index: u16, eff
             }
         }
         Effect::AddTimer { timed } => add_timer(step, *timed),
-        // No effect draws when it runs alone.
+        // No effect draws random numbers when it runs on no sprite.
         Effect::Disabled(_) => {}
         Effect::KillIfNotUpright | Effect::WaterPhysics => step.stop(Limit::NoSprite),
         Effect::UpdateSpawnType { stype, spawn_point } => {
@@ -241,7 +241,7 @@ fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
     step.plan(Timer { due, timed });
 }
 
-/// Returns an execution's score change, and `true` if the text for it is not a number.
+/// Returns an execution's score change, and `true` if the text of the score change is not a number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     if remembered & memory::KILLED != 0 {
         (info.summary.score_if_killed, info.score_faults[1])
@@ -256,14 +256,14 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.remember(index, memory::APPLY_SCORE, on);
     }
 
-    /// Records whether `counter` counts.
+    /// Records whether the changes in `counter` apply.
     fn apply_count(&mut self, index: u16, on: bool) {
         if self.counts(index) {
             self.world.remember(index, memory::NO_COUNT, !on);
         }
     }
 
-    /// Records whether `counterElse` counts.
+    /// Records whether the changes in `counterElse` apply.
     fn apply_count_else(&mut self, index: u16, on: bool) {
         if self.counts(index) {
             self.world.remember(index, memory::NO_COUNT_ELSE, !on);

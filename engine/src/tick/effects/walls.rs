@@ -42,7 +42,7 @@ fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, 
 }
 
 /// Returns the rectangle to collide with, and the number of partners in it. The rectangle covers two aligned
-/// partners if there are any, and the closest partner if not.
+/// partners if there are any, and the closest partner otherwise.
 fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {

@@ -230,7 +230,7 @@ fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) ->
     targets
 }
 
-/// The first of the closest targets, and a flag for whether further targets are equally close.
+/// The first of the closest targets, and a flag that is `true` if further targets are equally close.
 struct Closest {
     distance: f64,
     first: Rect,
@@ -291,7 +291,7 @@ fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Tar
     if total == 0 {
         return Targets::NONE;
     }
-    // To choose among several types, the reference uses an unseeded generator of its own.
+    // To choose among several types, the reference uses a separate, unseeded generator.
     let chosen = match stypes.len() {
         1 => stypes[0],
         count => stypes[step.world.second_dice().below(count as i32) as usize],

@@ -210,8 +210,8 @@ impl World {
         } else {
             return self.shift_across(models, bits, (before, from), (after, to), watcher);
         };
-        // The move is along one axis. Before and after, the sprite covers one or two cells, and as many
-        // beside them if it is in two rows or columns.
+        // The move is along one axis. Before and after the move, the sprite covers one or two cells along
+        // that axis. It covers as many cells beside them if it lies in two rows or columns.
         let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
         let (old, new) = (ends(before, from.flags), ends(after, to.flags));
         for cell in [old.0, old.1].into_iter().take(1 + usize::from(old.1 != old.0)) {
@@ -296,7 +296,7 @@ impl World {
         }
     }
 
-    /// Returns the bits of the types with several sprites in a cell.
+    /// Returns the bits of the types that have several sprites in a cell.
     #[inline(always)]
     pub(crate) fn crowds_in(&self, cell: usize) -> u64 {
         self.crowds.get(cell).copied().unwrap_or(0)
@@ -322,7 +322,7 @@ impl World {
         own
     }
 
-    /// Returns the number of sprites with the bit that cover a cell, counting at most two.
+    /// Returns the number of sprites with the bit that cover a cell, but at most 2.
     #[inline(never)]
     fn count_in(&self, models: &Models, cell: usize, own: u64) -> u32 {
         let stride = (self.columns + 2) as usize;
@@ -409,7 +409,7 @@ impl World {
         }
     }
 
-    /// Updates the counts of how a type's sprites lie in their cells.
+    /// Updates the counts that describe how a type's sprites lie in their cells.
     #[inline]
     fn lie(&mut self, models: &Models, stype: SpriteType, from: u32, to: u32, watcher: &mut impl Watcher) {
         if (from ^ to) & flag::OFF != 0 {

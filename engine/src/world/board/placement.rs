@@ -1,4 +1,5 @@
-//! Placement of rectangles in the board's cells, which are counted with the ring around the board.
+//! Placement of rectangles in the board's cells. Columns and rows are numbered from the ring around the
+//! board.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World, flag};
@@ -13,12 +14,12 @@ pub(crate) struct Located {
 }
 
 impl World {
-    /// Returns the column of a pixel, counted with the ring: 0 is left of the board.
+    /// Returns the column of a pixel, numbered from the ring: column 0 is left of the board.
     pub(crate) fn column(&self, x: i32) -> i32 {
         x.div_euclid(self.block).clamp(-1, self.columns) + 1
     }
 
-    /// Returns the row of a pixel, counted with the ring: 0 is above the board.
+    /// Returns the row of a pixel, numbered from the ring: row 0 is above the board.
     pub(crate) fn row(&self, y: i32) -> i32 {
         y.div_euclid(self.block).clamp(-1, self.rows) + 1
     }
@@ -125,7 +126,7 @@ impl World {
         (from, self.locate_moved(from, self.own(slot).rect, rect))
     }
 
-    /// Returns the column and row of a rectangle's top-left corner, counted with the ring.
+    /// Returns the column and row of a rectangle's top-left corner, numbered from the ring.
     pub(crate) fn place_of(&self, rect: Rect) -> (i16, i16) {
         (self.column(rect.x) as i16, self.row(rect.y) as i16)
     }
@@ -135,9 +136,9 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-/// Returns, along one axis, the cell of a pixel on the board, counted with the ring, if it is `guess` or next
-/// to it. Also returns `true` if a sprite that starts at the pixel and is no larger than a cell reaches into
-/// the next cell.
+/// Returns the cell of a pixel along one axis, numbered from the ring, if the pixel is on the board and its
+/// cell is `guess` or next to `guess`. Also returns `true` if a sprite that starts at the pixel and is no
+/// larger than a cell reaches into the next cell.
 #[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;

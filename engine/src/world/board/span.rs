@@ -1,6 +1,7 @@
 //! The few cells covered by a sprite no larger than a cell.
 
-/// The up to four cells that a small sprite covers, within a square on the board that is [`SPAN`] cells wide.
+/// The cells, at most four, that a small sprite covers within a square on the board that is [`SPAN`] cells
+/// wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The cell at the square's corner.

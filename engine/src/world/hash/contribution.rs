@@ -3,8 +3,8 @@
 //!
 //! A state's hash is a sum over its sprites. Each sprite adds the product of a number and its own keys
 //! (`mod.rs`). The number is linear in the sprite's position and the tick of its last move, so sprites in
-//! flight need no update. All sprites that move in the same ticks form one linear hash class, by whose growth
-//! the sum grows after each of their moves.
+//! flight need no update. All sprites that move in the same ticks form one linear hash class. After each of
+//! their moves, the sum grows by the growth of the class.
 
 use super::{KEYS, Products, SECRET, bits, fold, two};
 use crate::flat::bytes_of_fields;
@@ -13,7 +13,7 @@ use crate::numbers::geometry::Rect;
 use crate::world::sprites::moved::{Resized, last_of};
 use crate::world::{Overrides, Slot, Sprite, World, flag};
 
-/// The tables of data that sprites do not contain themselves.
+/// The tables with data that is not stored in the sprites themselves.
 #[derive(Clone, Copy)]
 pub(crate) struct SideTables<'a> {
     pub(crate) overrides: &'a [Overrides],

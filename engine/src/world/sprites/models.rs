@@ -5,8 +5,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::world::{NO_HEADING, NONE, Overrides, Sprite, flag};
 
-/// The number of bits. If there are more types than bits, the remaining types share the last bit, and their
-/// rules are tested more often than needed, with the same results.
+/// The number of bits in a cell mask. If there are more types than bits, the remaining types share the last
+/// bit. Their rules are then tested more often than needed, with the same results.
 const BITS: usize = 64;
 
 /// The part of a type that the world needs.
@@ -37,7 +37,7 @@ pub(crate) struct Models {
     pub(crate) bits: Vec<TypeBits>,
     /// For each type, the bits of the types in its tree.
     pub(crate) trees: Vec<u64>,
-    /// The number of bits in use.
+    /// The number of mask bits in use.
     pub(crate) used_bits: usize,
 }
 
@@ -81,7 +81,7 @@ impl Models {
         self.bits[stype.index()].own
     }
 
-    /// Returns the bits of several types.
+    /// Returns the combined mask bits of several types.
     pub(crate) fn all(&self, types: &[SpriteType]) -> u64 {
         all(&self.bits, types)
     }
@@ -105,8 +105,8 @@ pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Returns the prototype for a type's sprites. The rectangles, the creation number and the age are set on
-/// creation.
+/// Returns the prototype for a type's sprites. The rectangles, the creation number and the age are set when a
+/// sprite is created.
 pub(crate) fn prototype(stype: SpriteType, info: &TypeInfo) -> Sprite {
     let (traits, is_avatar) = (&info.traits, info.class.is_some_and(SpriteClass::is_avatar));
     let flags = [

@@ -78,7 +78,7 @@ impl World {
         self.sprites[usize::from(slot)].moved_at = self.tick;
     }
 
-    /// Drops sprites whose flag is no longer set from the list of moved sprites.
+    /// Drops from the list of moved sprites those whose flag is no longer set.
     pub(crate) fn shorten_moved(&mut self) {
         let World { moved, sprites, .. } = self;
         moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));

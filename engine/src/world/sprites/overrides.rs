@@ -1,4 +1,4 @@
-//! Copy-on-write overrides for sprites: orientation, speed, health and other values that seldom differ from
+//! Copy-on-write overrides for sprites: orientation, speed, health and other values that rarely differ from
 //! those of the type.
 //!
 //! Sprites share their type's values until the first change gives them overrides of their own. Sharing keeps
@@ -17,9 +17,9 @@ pub(crate) struct Overrides {
     pub(crate) speed: f64,
     pub(crate) health: i32,
     pub(crate) max_health: i32,
-    /// The tick of a spawner's first update, or −1 before it.
+    /// The tick of a spawner's first update, or −1 before that update.
     pub(crate) start: i32,
-    /// The type that a spawner currently creates, which updateSpawnType changes.
+    /// The type that a spawner currently creates, which updateSpawnType can change.
     pub(crate) spawns: SpriteType,
     /// The index into `World::extras`, or `NONE`.
     pub(crate) extra: u16,

@@ -32,7 +32,7 @@ impl World {
         self.held.binary_search_by_key(&(holder, resource), |held| (held.holder, held.resource))
     }
 
-    /// Returns the resources that all sprites hold.
+    /// Returns the resource holdings of all sprites.
     pub(crate) fn held(&self) -> &[Held] {
         &self.held
     }

@@ -28,10 +28,10 @@ pub(crate) mod flag {
     /// The sprite is not updated, and `moved_at` contains its age. Either its type is not in the update
     /// order, or it is a sprite of an avatar class that is disabled or not the player's avatar.
     pub(crate) const FROZEN: u32 = 128;
-    /// The sprite is in `State::moved`, because its last rectangle differs, or may differ, from its current
+    /// The sprite is in `World::moved`, because its last rectangle differs, or may differ, from its current
     /// rectangle.
     pub(crate) const MOVED: u32 = 256;
-    /// The sprite is dirty: it is in `State::dirty`, because the running hash may contain an older version of
+    /// The sprite is dirty: it is in `World::dirty`, because the running hash may contain an older version of
     /// it.
     pub(crate) const DIRTY: u32 = 512;
     /// The slot is free.
@@ -50,13 +50,13 @@ pub(crate) mod flag {
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
     /// The hash contribution has changed in more than the values that change with movement.
     pub(crate) const CHANGED: u32 = 65_536;
-    /// The sprite is in `State::resized`, because it had a different size at the start of its update.
+    /// The sprite is in `World::resized`, because it had a different size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
     /// The bits that describe how a sprite lies in its cell.
     pub(crate) const PLACEMENT: u32 = MULTI_CELL | OFF;
     /// The sprite is a spawner that has been updated, and `Overrides::start` is the tick of its first update.
     pub(crate) const STARTED: u32 = 524_288;
-    /// The position of the highest bits. For an NPC, these bits contain the direction drawn last, as an index
+    /// The position of the highest bits. For an NPC, these bits contain the last drawn direction, as an index
     /// into the base directions, or 4 for no direction.
     pub(crate) const HEADING: u32 = 29;
     /// The bits that are part of the state. All other bits are bookkeeping and may differ between two equal
@@ -80,7 +80,7 @@ pub(crate) struct Sprite {
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
-    /// The index into `State::overrides` of the sprite's own entry or that of its type.
+    /// The index in `World::overrides` of the sprite's own entry or of its type's entry.
     pub(crate) overrides: u16,
     /// The schedule's note about what happened to the sprite in this tick.
     pub(crate) activity: u16,
@@ -92,7 +92,7 @@ pub(crate) struct Sprite {
     /// The neighbours in the cell's chain.
     pub(crate) cell_next: Slot,
     pub(crate) cell_previous: Slot,
-    /// The cell's column and row, counted with the ring around the board.
+    /// The cell's column and row, numbered from the ring around the board.
     pub(crate) column: i16,
     pub(crate) row: i16,
 }

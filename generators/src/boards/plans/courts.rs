@@ -6,7 +6,7 @@ use base::Sampler;
 
 /// The sizes of pillars, as columns and rows.
 const PILLARS: [(usize, usize); 5] = [(1, 2), (2, 1), (2, 2), (3, 1), (1, 3)];
-/// The shapes of islands, each a set of rectangles with offsets: an angle, a step, a bar, a block, a hook.
+/// The shapes of islands, each given as rectangles with offsets: an angle, a step, a bar, a block, a hook.
 const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 1, 2), (0, 1, 3, 1)],
     &[(0, 0, 2, 1), (1, 1, 2, 1)],
@@ -16,7 +16,7 @@ const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 3, 1), (1, 1, 1, 1)],
 ];
 
-/// Draws a court with rows of pillars that are shifted from row to row, and one open quarter.
+/// Draws a court that contains rows of pillars, each row shifted against the last, and one open quarter.
 pub(super) fn courtyard(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let (across, down) = *sampler.choose(&PILLARS);
@@ -55,7 +55,7 @@ pub(super) fn ring(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.clear(niche, (2, deep));
     canvas.mark(niche, (2, deep));
     if across > 4 && sampler.ratio(1, 2) {
-        // A bite at the far end keeps the block from being a plain rectangle.
+        // A notch at the far end keeps the block from being a plain rectangle.
         canvas.clear((x + across - 2, y + down - 1), (2, 1));
     }
 }
@@ -68,7 +68,7 @@ pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     let x = between(sampler, 2, width.saturating_sub(across));
     let y = if down + 2 > height { 1 } else { between(sampler, 1, height - down) };
     let (right, bottom) = ((x + across - 1).min(width), (y + down - 1).min(height));
-    // A moat next to the border needs no side there.
+    // A moat next to the border needs no line on that side.
     let mut corners = vec![(x, y), (right, y), (right, bottom), (x, bottom), (x, y)];
     if y == 1 {
         corners = vec![(x, y), (x, bottom), (right, bottom), (right, y)];
@@ -83,7 +83,7 @@ pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark(inside, (across - 2, bottom.saturating_sub(inside.1)));
 }
 
-/// Draws a walled keep in a corner with a jog in its wall, and a short matching wall outside.
+/// Draws a keep in a corner whose wall has a jog, and a short matching wall outside.
 pub(super) fn keep(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let x = between(sampler, 4, (width * 3 / 5).max(4));
@@ -148,7 +148,7 @@ pub(super) fn islands(canvas: &mut Canvas, sampler: &mut Sampler) {
     }
 }
 
-/// Draws a wall around three sides of a court, with one arm shorter than the other, and a gap at the back.
+/// Draws a wall around three sides of a court. One arm is shorter than the other, and there is a gap at the back.
 pub(super) fn cloister(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let across = between(sampler, 5, width.saturating_sub(3));

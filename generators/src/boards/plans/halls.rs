@@ -32,7 +32,7 @@ pub(super) fn cross(canvas: &mut Canvas, sampler: &mut Sampler) {
     let hollow = sampler.below(4);
     for corner in 0..4 {
         let (east, south) = (corner & 1 != 0, corner & 2 != 0);
-        // The block's sides at the avenues vary, and blocks sometimes leave a lane at the border.
+        // The sides that face the avenues vary, and some blocks leave a lane along the border.
         let (left, right) = if east { (x + wide, width) } else { (1, x - 1) };
         let (top, bottom) = if south { (y + wide, height) } else { (1, y - 1) };
         if right < left || bottom < top {
@@ -118,7 +118,8 @@ pub(super) fn staggered(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((width - 2, if from_top { height / 2 } else { 1 }), (3, height / 2 + 1));
 }
 
-/// Draws two or three terraces. Each border contains a step, and its gates are far from the next border's gates.
+/// Draws two or three terraces. The border between two terraces contains a step, and its gates are far from those of
+/// the next border.
 pub(super) fn terraces(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let borders = if width >= 12 { 2 } else { 1 };

@@ -4,7 +4,7 @@ use super::between;
 use crate::boards::canvas::{Canvas, Divider};
 use base::Sampler;
 
-/// Returns the first middle position of a side with the given length, and the number of middle positions: 1 or 2.
+/// Returns the first middle position of a side of the given length, and the number of middle positions (1 or 2).
 fn middle(length: usize) -> (usize, usize) {
     (length.div_ceil(2), 2 - length % 2)
 }
@@ -63,7 +63,7 @@ pub(super) fn sanctum(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark((from_x + 1, from_y + 1), (to_x - from_x - 1, to_y - from_y - 1));
 }
 
-/// Draws two halves behind each other with a gate between them, and a buttress on each side of both halves.
+/// Draws two halves, one behind the other, with a gate between them and a buttress on each side of both halves.
 pub(super) fn gatehouse(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let y = between(sampler, height / 2, height / 2 + 1);

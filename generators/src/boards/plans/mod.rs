@@ -1,4 +1,4 @@
-//! Board plans. Each plan is a site with a landmark, drawn with its own proportions.
+//! Board plans. Each plan is a site with a landmark, drawn in proportions of its own.
 
 mod courts;
 mod halls;
@@ -7,7 +7,7 @@ mod mirrored;
 use super::canvas::{Canvas, narrow};
 use base::{Sampler, Seed};
 
-/// The number of attempts to draw a plan before a different kind is tried.
+/// The number of attempts to draw a plan before a different kind of plan is tried.
 const DRAWS: u64 = 6;
 /// The maximum fraction of a plan's floor that may be narrow.
 const MAX_NARROW: f64 = 0.3;
@@ -102,7 +102,7 @@ impl PlanKind {
     }
 }
 
-/// Draws a number in a range. Returns the lower end if the board is too small for the range.
+/// Draws a number in a range. Returns the lower end if the range is empty because the board is too small.
 fn between(sampler: &mut Sampler, low: usize, high: usize) -> usize {
     sampler.between(low, high.max(low))
 }

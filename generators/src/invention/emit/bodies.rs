@@ -1,4 +1,4 @@
-//! The rules that follow from the bodies of types: pushing, blocking, picking up.
+//! The rules that follow from the bodies of types: rules for pushing, blocking and picking up.
 
 use super::{REMOVING, is_hero, name, own_name};
 use crate::invention::genome::Invention;
@@ -72,7 +72,7 @@ impl Bodies {
         lines
     }
 
-    /// Returns the rules for picking up items, for items that a mechanic's rules do not let the hero take.
+    /// Returns the rules for picking up the items that no mechanic's rule lets the hero take.
     pub(super) fn picks_up(&self, taken: &BTreeSet<String>) -> Vec<InteractionLine> {
         let items = self.with(Body::Item).filter(|item| !taken.contains(*item));
         let pick = |item| {
@@ -84,7 +84,7 @@ impl Bodies {
     }
 }
 
-/// Returns `true` if a rule removes one of two types whenever they meet.
+/// Returns `true` if a rule removes a sprite of one of two types whenever they meet.
 fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     let meet = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)
@@ -94,13 +94,13 @@ fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     })
 }
 
-/// Returns `true` if two rules remove a type when the player touches it, so that one of the rules has no effect. Also
-/// returns `true` if touching a type harms the player, although the player needs to touch the type.
+/// Returns `true` if two rules remove a type when the player touches it, so that one of them has no effect. Also
+/// returns `true` if a type harms the player on touch although the player needs to touch it.
 pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[InteractionLine]) -> bool {
     let meets = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)
     };
-    // Sprites that were killed in the same tick are not harmless, except to `killIfAlive`.
+    // A sprite killed in the same tick is still harmful, except under `killIfAlive`.
     let taken_from = |harm: &str| match harm {
         "killSprite" => &["killSprite", "transformTo", "transformIfCount", "killIfOtherHasMore"][..],
         "killIfAlive" => &["killSprite", "transformTo"],
@@ -124,8 +124,7 @@ pub(super) fn is_contradictory(bodies: &Bodies, types: &[Merged], rules: &[Inter
     })
 }
 
-/// Turns a rule by which the player's touch removes an item into a rule by which the player collects the
-/// item.
+/// Converts a rule that removes an item when the player touches it into a rule that makes the player collect it.
 pub(super) fn collect_instead(line: &mut InteractionLine, items: &BTreeSet<&str>) {
     let is_taken = line.effect.text == "killSprite" && line.second.iter().all(|word| word.text == "hero");
     if is_taken && items.contains(line.first.text.as_str()) {

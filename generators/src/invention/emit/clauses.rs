@@ -1,4 +1,4 @@
-//! A mechanic's clauses, with type names.
+//! A mechanic's clauses, with the names of types in place of ports.
 
 use super::name;
 use super::own_name;
@@ -51,7 +51,7 @@ pub(super) fn clauses(invention: &Invention, types: &[Merged], at: usize) -> Res
             let children: String = heroes.lines().map(|line| format!("    {line}\n")).collect();
             let line = format!("hero > {}\n{children}", class.as_deref().unwrap_or("MovingAvatar"));
             let mut hero = read(&line, "", "")?.sprites.pop();
-            // A state has the class of its group in any case.
+            // A state inherits the class of its group anyway.
             for line in hero.iter_mut() {
                 let text = |line: &SpriteLine| line.class.as_ref().map(|class| class.text.clone());
                 let class = text(line);
@@ -95,7 +95,7 @@ pub(in crate::invention) fn names_of(
     ports.chain(own).collect()
 }
 
-/// Extends other mechanics' rules to states that still count as the port's type.
+/// Extends the rules of other mechanics to the states that still count as the port's type.
 pub(super) fn extend_to_states(invention: &Invention, types: &[Merged], clauses: &mut [Clauses]) {
     for (at, mechanic) in invention.mechanics.iter().enumerate() {
         let names = names_of(mechanic, types, at);

@@ -1,4 +1,4 @@
-//! Losing: the loss of objects that an ending needs, and the loss of the player.
+//! The ways to lose: the loss of objects that an ending needs, and the loss of the player.
 
 use super::clauses::Clauses;
 use super::{REMOVING, lost_name, name, own_name};
@@ -7,8 +7,8 @@ use crate::invention::mechanic::{Body, Origin, OwnType, Port, Tag};
 use crate::invention::merge::{Merged, PortId};
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine, Word};
 
-/// Makes every loss of a goal end the game, unless the ending only needs the goal removed. Returns the types that can
-/// be lost in this way.
+/// Makes the loss of a goal end the game, except for goals that the ending only needs removed. Returns the types that
+/// can be lost in this way.
 pub(super) fn lose_with_goals(
     invention: &Invention,
     types: &[Merged],
@@ -39,8 +39,8 @@ pub(super) fn lose_with_goals(
     losses
 }
 
-/// Returns the states that an ending still counts as the type, because their mechanic does not remove or spend the
-/// type.
+/// Returns the states of a type that an ending still counts as the type, because the mechanic of the state does not
+/// remove or use up the type.
 fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<String> {
     let merged = &types[class];
     let of_port = |((at, _), port): &(PortId, &'static Port)| {
@@ -74,8 +74,8 @@ pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut T
     line.params.splice(0..0, counted);
 }
 
-/// Returns `true` if an ending's rules count a type that also has lasting states, or that a mechanic produces. The
-/// rules would miss the states, and the sprites that are not yet produced.
+/// Returns `true` if an ending's rules count a type that has lasting states or is produced by a mechanic. The rules
+/// would miss the states, or the sprites that have not been produced yet.
 pub(super) fn misses_states(invention: &Invention, types: &[Merged], ending: &Clauses) -> bool {
     let counts = |stype: &str| {
         let params = ending.before.iter().chain(&ending.rules).flat_map(|line| &line.params);
@@ -86,7 +86,7 @@ pub(super) fn misses_states(invention: &Invention, types: &[Merged], ending: &Cl
         .any(|class| types[class].has(Tag::Made) || !lasting_states(invention, types, class).is_empty())
 }
 
-/// Makes every rule that removes an object leave a marker. Returns `true` if there is such a rule.
+/// Makes every rule that removes an object leave a marker in its place. Returns `true` if there is such a rule.
 fn mark_losses(lines: &mut Vec<InteractionLine>, thing: &str, lost: &str) -> bool {
     let mut marked = Vec::new();
     let mut is_lost = false;

@@ -1,4 +1,4 @@
-//! Converts merged ports to rules: the mechanics' clauses with type names, and the rules that follow from bodies.
+//! Conversion of merged ports to rules: the mechanics' clauses with type names, and the rules that follow from bodies.
 
 mod bodies;
 mod clauses;
@@ -26,8 +26,8 @@ pub(in crate::invention) struct Written {
 }
 
 impl Written {
-    /// Removes from a rule that follows from bodies the partner that triggers a compiler warning. Returns `false` if
-    /// the rule belongs to a mechanic.
+    /// Removes the partner that triggers a compiler warning from its rule, if the rule follows from bodies. Returns
+    /// `false` if the rule belongs to a mechanic.
     pub(in crate::invention) fn leave_out(
         &mut self,
         dressed: &mut Description,
@@ -54,7 +54,7 @@ impl Written {
     }
 }
 
-/// Returns the internal name of a type that fills ports.
+/// Returns the internal name of the type with the given class of ports.
 pub(in crate::invention) fn name(class: usize) -> String {
     format!("type{class}")
 }
@@ -146,8 +146,8 @@ pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Re
     Ok(Written { description, owners })
 }
 
-/// Moves the rules that act on a solid type when the player touches it before the rules that act on the player. The
-/// latter run together with the rule that stops the player, after which the player no longer touches the type.
+/// Moves the rules by which the player's touch affects a solid type before the rules that affect the player. The latter
+/// run together with the rule that stops the player, after which the player no longer touches the type.
 fn touched_first(
     mut lines: Vec<(InteractionLine, Option<usize>)>,
     bodies: &Bodies,

@@ -1,5 +1,5 @@
-//! The texts of an invented game: a setting, nouns that fit everything a type does, a title, and sentences that
-//! explain the rules.
+//! The texts of an invented game: a setting, nouns that suit everything that their types do, a title, and sentences
+//! that explain the rules.
 
 mod nouns;
 mod predicates;
@@ -155,7 +155,7 @@ fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
     wanted
 }
 
-/// Assigns a noun from a setting to each type: the first fitting noun, or a random one.
+/// Assigns a noun from a setting to each type: a random fitting noun or, without a sampler, the first one.
 fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> Option<Nouns> {
     let mut nouns = Nouns::new();
     for (stype, body, needs) in wanted {
@@ -183,8 +183,8 @@ fn last_word(noun: &str) -> String {
     noun[at..].to_ascii_lowercase()
 }
 
-/// Returns the castings of all types. A casting is a role for colours and images, or the type of which this type is
-/// a state.
+/// Returns the castings of all types. The casting of a type is either a role, which determines colours and images, or
+/// the type of which it is a state.
 fn castings(invention: &Invention, types: &[Merged]) -> BTreeMap<String, Casting> {
     let mut castings = BTreeMap::from([("hero".to_owned(), Casting::Role("hero".to_owned()))]);
     for (class, merged) in types.iter().enumerate() {
@@ -283,7 +283,7 @@ fn goal(invention: &Invention, types: &[Merged], nouns: &Nouns) -> Result<String
     Ok(phrase::sentence(&phrase::fill(&text, &own).map_err(GenerateError::Unsuitable)?))
 }
 
-/// Returns the sentences about the opposed uses of types.
+/// Returns at most one sentence about a type with opposed uses.
 fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<String> {
     let mut said = Vec::new();
     for (class, merged) in types.iter().enumerate().filter(|(_, merged)| is_opposed(merged)) {

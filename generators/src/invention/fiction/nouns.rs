@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 const NOUNS: &str = include_str!("../../../mechanics/nouns.txt");
 const PLACES: &str = include_str!("../../../mechanics/places.toml");
 
-/// The kind of object that a noun denotes. The kinds are the headings in the table.
+/// The kind of object that a noun denotes. Each kind is a heading in the noun table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     Mover,
@@ -74,8 +74,8 @@ impl Noun {
         Ok(Noun { word, form, predicates, places: places.split_whitespace().collect() })
     }
 
-    /// Returns `true` if the noun fits a type with the given body and required predicates. Water and holes can be solid.
-    /// A thing that is carried one at a time has the body of ground, but it is called like an item.
+    /// Returns `true` if the noun fits a type with the given body and required predicates. Water and holes can be
+    /// solid. A thing of which only one can be carried has the body of ground, but the noun of an item.
     pub(crate) fn fits(&self, body: Body, needs: Predicates) -> bool {
         let is_carried = needs.includes(Predicates::portable());
         let is_of_form = match body {
@@ -112,7 +112,7 @@ pub(crate) struct Place {
     pub(crate) reasons: Vec<String>,
 }
 
-/// The texts around the nouns.
+/// The texts that surround the nouns.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Words {
     titles: Titles,

@@ -1,8 +1,8 @@
-//! The properties of nouns that rules can require.
+//! The properties that rules can require of nouns.
 
 use std::str::FromStr;
 
-/// The words for an object's nature or action, apart from its use in a game.
+/// The words for an object's nature or actions, independent of its use in a game.
 const WORDS: &[&str] = &[
     "hunts", "marches", "roams", "steals", "timid", "friend", "animal", "person", "eats", "sleeps",
     "tramples", "swims", "flies", "edible", "opens", "valuable", "cuts", "digs", "fuel", "lights",
@@ -33,7 +33,7 @@ impl Predicates {
         self.0 & other.0 == other.0
     }
 
-    /// Returns the words, in list order.
+    /// Returns the words of the predicates, in list order.
     pub(crate) fn words(self) -> impl Iterator<Item = &'static str> {
         WORDS.iter().enumerate().filter(move |(at, _)| self.0 >> at & 1 == 1).map(|(_, word)| *word)
     }

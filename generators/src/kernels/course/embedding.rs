@@ -6,10 +6,10 @@ use base::Sampler;
 
 /// The number of embeddings to draw. The most compact embedding is used.
 const DRAWS: usize = 48;
-/// The maximum number of rooms side by side, and above each other.
+/// The maximum number of columns and rows that the rooms may occupy in the coarse grid.
 const LARGEST: (i32, i32) = (4, 3);
-/// The room sizes in the coarse grid. The most common size is listed several times. A ring of three rooms needs a room
-/// with a different size.
+/// The room sizes in the coarse grid. The most common size is listed several times. The other sizes are needed for
+/// rings of three rooms.
 const SIZES: [(i32, i32); 6] = [(1, 1), (1, 1), (1, 1), (1, 1), (2, 1), (1, 2)];
 
 /// The rooms' rectangles on the board.
@@ -88,7 +88,7 @@ impl Span {
             && other.top < self.bottom()
     }
 
-    /// Returns `true` if the two spans share at least one unit of a side.
+    /// Returns `true` if the two spans share at least one unit of an edge.
     fn touches(self, other: Span) -> bool {
         let beside = self.right() == other.left || other.right() == self.left;
         let above = self.bottom() == other.top || other.bottom() == self.top;
@@ -118,7 +118,7 @@ impl Embedding {
             }
             let all = (embedding.columns * embedding.rows) as f64;
             let used: usize = embedding.rooms.iter().map(|room| room.width() * room.height()).sum();
-            // Prefer boards of about the wanted shape, with little rock and no more floor than necessary.
+            // Prefer boards of about the wanted shape, with little solid wall and no more floor than necessary.
             let shape = embedding.columns as f64 / embedding.rows as f64;
             let needed: usize = needs.iter().map(|(width, height)| width * height).sum();
             let waste = used as f64 / needed as f64;
@@ -155,8 +155,8 @@ struct Lines {
 }
 
 impl Lines {
-    /// Finds line sizes that meet all needs. A need is a first line, a number of lines, and the number of cells that
-    /// they must span.
+    /// Finds the sizes of lines such that all needs are met. A need consists of a first line, a number of lines, and
+    /// the number of cells that these lines must span.
     fn of(needs: &[(i32, i32, usize)]) -> Lines {
         let first = needs.iter().map(|need| need.0).min().unwrap_or(0);
         let last = needs.iter().map(|need| need.0 + need.1).max().unwrap_or(1);
@@ -165,7 +165,7 @@ impl Lines {
         by_length.sort_by_key(|need| need.1);
         for (start, count, need) in by_length {
             let lines = &mut sizes[(start - first) as usize..(start - first + count) as usize];
-            // The borders between a room's lines are also floor of the room.
+            // The borders between the lines of a room belong to the room's floor.
             while lines.iter().sum::<usize>() + lines.len() - 1 < need {
                 if let Some(least) = lines.iter_mut().min() {
                     *least += 1;
@@ -185,7 +185,7 @@ impl Lines {
     }
 }
 
-/// Draws a span for each room so that linked rooms share a border; `None` if the draw fails.
+/// Draws a span for each room such that linked rooms share a border; `None` if the draw fails.
 fn spans(map: &Map, sampler: &mut Sampler) -> Option<Vec<Span>> {
     let mut spans: Vec<Option<Span>> = vec![None; map.rooms.len()];
     let (width, height) = size(map, 0, sampler);
@@ -224,7 +224,8 @@ fn spans(map: &Map, sampler: &mut Sampler) -> Option<Vec<Span>> {
     spans.into_iter().collect()
 }
 
-/// Draws a room's size in the coarse grid. Rooms with a drawn piece are often large, with several rooms along one side.
+/// Draws a room's size in the coarse grid. Rooms with a drawn piece are often large, so that several rooms fit along
+/// one side.
 fn size(map: &Map, room: usize, sampler: &mut Sampler) -> (i32, i32) {
     match map.rooms[room].piece {
         Some(_) if sampler.ratio(1, 4) => (2, 2),
@@ -232,7 +233,7 @@ fn size(map: &Map, room: usize, sampler: &mut Sampler) -> (i32, i32) {
     }
 }
 
-/// Extends rooms into adjacent unused parts of the coarse grid, as long as the rooms stay rectangles.
+/// Extends rooms into adjacent unused parts of the coarse grid, provided that the rooms remain rectangles.
 fn grow(spans: &mut [Span], sampler: &mut Sampler) {
     let columns = (spans.iter().map(|span| span.left).min(), spans.iter().map(|span| span.right()).max());
     let rows = (spans.iter().map(|span| span.top).min(), spans.iter().map(|span| span.bottom()).max());

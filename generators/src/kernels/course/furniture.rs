@@ -27,7 +27,7 @@ pub(super) fn furnish(
             traits,
             placed: Vec::new(),
         };
-        // Items with a specific position come first, and movers come before things.
+        // Items that need a specific position come first, and movers come before all other items.
         let mut items: Vec<&Item> =
             room.items.iter().filter(|item| furnisher.is_there(&item.stype)).collect();
         items.sort_by_key(|item| match item.place {
@@ -107,7 +107,7 @@ impl Furnisher<'_> {
         self.placed.push(cell);
     }
 
-    /// Draws a cell for a sprite, from the cells that best match its preferred position.
+    /// Draws a cell for a sprite from those that best match its preferred position.
     fn cell(&self, item: &Item, board: &Board, sampler: &mut Sampler) -> Option<Cell> {
         let from = self.entry.or(self.openings.first().copied());
         let steps = match from {
@@ -143,7 +143,7 @@ impl Furnisher<'_> {
             }
         };
         let best = free.iter().map(|&cell| score(cell)).max()?;
-        // Accept cells that are nearly the best, for variety.
+        // For variety, accept cells that are nearly as good as the best.
         let tolerance = match item.place {
             Place::Far | Place::Near | Place::Wall => 3,
             Place::Fair | Place::Row => 4,
@@ -153,7 +153,7 @@ impl Furnisher<'_> {
         Some(*sampler.choose(&good))
     }
 
-    /// Returns `true` if the floor and the openings stay connected if a cell is blocked.
+    /// Returns `true` if the floor and the openings remain connected when a cell is blocked.
     fn stays_connected(&self, blocked: Cell, board: &Board) -> bool {
         let is_open = |cell: Cell| {
             cell != blocked
@@ -186,7 +186,7 @@ impl Furnisher<'_> {
         }
     }
 
-    /// Draws a line of adjacent free cells.
+    /// Draws adjacent free cells that form a line.
     fn row(&self, count: usize, board: &Board, sampler: &mut Sampler) -> Option<Vec<Cell>> {
         let is_free = |cell: &Cell| self.area.contains(*cell) && board.is_floor(*cell);
         let lines = self.area.cells().flat_map(|(x, y)| {

@@ -1,4 +1,4 @@
-//! Levels from maps: lays out a graph of rooms on a board, builds the rooms, and furnishes them.
+//! Levels from maps. A graph of rooms is laid out on a board, and the rooms are built and furnished.
 
 mod cell;
 mod embedding;
@@ -18,9 +18,9 @@ const LARGEST: (usize, usize) = (24, 14);
 /// The number of layouts to draw per map.
 const DRAWS: u64 = 24;
 
-/// The board sizes to which a game's levels may be stretched. Two thirds of the games have no fixed size.
+/// The board sizes to which a game's levels may be stretched; `None` for games without a fixed size.
 const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
-/// The fraction of boards to stretch, in games with a fixed board size.
+/// In games with a fixed board size, the fraction of boards to stretch.
 const STRETCHED: (usize, usize) = (3, 4);
 
 /// The facts about a game's types that level builders need.
@@ -28,20 +28,20 @@ const STRETCHED: (usize, usize) = (3, 4);
 pub(crate) struct Traits {
     /// The types that occur in the game.
     pub(crate) present: BTreeSet<String>,
-    /// The types that stop the hero or are pushed by the hero.
+    /// The types that stop the hero or that the hero pushes.
     pub(crate) solid: BTreeSet<String>,
     /// The types that kill the hero on contact.
     pub(crate) deadly: BTreeSet<String>,
-    /// The types that move back and forth, with `true` for vertical movement.
+    /// The types that move back and forth; `true` for those that move vertically.
     pub(crate) lanes: BTreeMap<String, bool>,
 }
 
-/// The size and shape of the space occupied by a game's levels.
+/// The size and shape of the space that a game's levels occupy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Space {
-    /// The number of additional columns and rows in rooms, beyond the required ones.
+    /// The number of columns and rows by which rooms exceed their required size.
     pub(crate) spare: usize,
-    /// The number of columns per row, as far as rooms can be laid out to match this ratio.
+    /// The target ratio of columns to rows, as far as rooms can be laid out to match it.
     pub(crate) shape: f64,
     /// The numbers of columns and rows to which boards are stretched where possible.
     pub(crate) board: Option<Cell>,
@@ -60,7 +60,7 @@ impl Space {
     }
 }
 
-/// A board of named types; `None` is floor.
+/// A board whose cells contain type names; `None` is floor.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Board {
     pub(crate) columns: usize,

@@ -26,7 +26,7 @@ pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sam
     };
     let (width, height) =
         if room.size == Size::Corridor { (width, height) } else { (width + spare, height + spare) };
-    // Things take up at most one third of the floor.
+    // Items occupy at most one third of the floor.
     let width = width.max((3 * items as usize).div_ceil(height));
     match room.style {
         Style::Ring => (width.max(5), height.max(5)),
@@ -35,7 +35,8 @@ pub(super) fn size(room: &Room, kernel: &Kernel, spare: usize, sampler: &mut Sam
     }
 }
 
-/// Builds all rooms and the openings between them; `None` if two linked rooms have no space for their openings.
+/// Builds all rooms and the openings between them; `None` if two linked rooms have no space for their openings or a
+/// drawn piece does not fit.
 pub(super) fn build(
     map: &Map,
     kernel: &Kernel,
@@ -85,7 +86,7 @@ pub(super) fn build(
     Some(openings)
 }
 
-/// Fills the borders between rooms with the link's divider, or otherwise with the kernel's divider.
+/// Fills the border between each two rooms with their link's divider or, without one, with the kernel's divider.
 fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, board: &mut Board) {
     let is_there = |stype: &&String| traits.present.contains(*stype);
     for (number, one) in embedding.rooms.iter().enumerate() {
@@ -99,7 +100,7 @@ fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, bo
     }
 }
 
-/// Draws the cells of a link's openings, away from corners and other openings if there is enough space.
+/// Draws the cells of a link's openings, if possible away from corners and from other openings.
 fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut Sampler) -> Option<Vec<Cell>> {
     let free: Vec<Cell> = border.iter().copied().filter(|cell| !taken.contains(cell)).collect();
     if link.is_wide {
@@ -112,7 +113,7 @@ fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut S
         return None;
     }
     if count == 1 {
-        // Half of the openings are in the middle, which looks deliberate.
+        // At least half of the openings are in the middle, where they look deliberate.
         let inner = if free.len() > 2 { &free[1..free.len() - 1] } else { &free[..] };
         let at = if sampler.ratio(1, 2) { inner.len() / 2 } else { sampler.below(inner.len()) };
         return Some(vec![inner[at]]);
@@ -121,7 +122,7 @@ fn opening_cells(link: &Link, border: Vec<Cell>, taken: &[Cell], sampler: &mut S
     Some((0..count).map(|number| free[((number as f64 + 0.5) * gap) as usize]).collect())
 }
 
-/// Rotates and mirrors a piece so that it fits the area.
+/// Mirrors a piece at random, unless it must be used as it is; `None` if the piece does not fit the area.
 fn turned(rows: &[String], as_is: bool, area: Rectangle, sampler: &mut Sampler) -> Option<Vec<Vec<char>>> {
     let mut rows: Vec<Vec<char>> = rows.iter().map(|row| row.chars().collect()).collect();
     if !as_is {
@@ -167,13 +168,13 @@ fn carve_corridor(area: Rectangle, openings: &[Cell], board: &mut Board) {
     }
 }
 
-/// Returns `true` if a room is empty.
+/// Returns `true` if a room has no contents in this game.
 fn is_bare(room: &Room, traits: &Traits) -> bool {
     let holds = |stype: &str| stype == "wall" || traits.present.contains(stype);
     !room.fill.as_deref().is_some_and(holds) && !room.items.iter().any(|item| holds(&item.stype))
 }
 
-/// Leaves a 3×2 nook behind a dead end's opening, so that the room is a cupboard rather than an empty hall.
+/// Leaves a 3×2 nook behind a dead end's opening, so that the room becomes a cupboard instead of an empty hall.
 fn leave_nook(area: Rectangle, (x, y): Cell, board: &mut Board) {
     let (across, deep) = (1, 2);
     let beside = x >= area.left && x <= area.right;
@@ -182,13 +183,14 @@ fn leave_nook(area: Rectangle, (x, y): Cell, board: &mut Board) {
     area.cells().filter(outside).for_each(|cell| board.put(cell, Some("wall")));
 }
 
-/// Adds a style's interior walls.
+/// Adds the interior walls of a style.
 fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler) {
     let (width, height) = (area.width(), area.height());
     let mut wall = |x: usize, y: usize| board.put((area.left + x, area.top + y), Some("wall"));
     match style {
         Style::Open => {}
-        // Most rooms have no interior walls. Some rooms have all four corners cut, but never only one or two.
+        // Most rooms have no interior walls. Some rooms have all four corners cut, but no room has only some of them
+        // cut.
         Style::Plain => {
             if width >= 5 && height >= 4 && sampler.ratio(1, 4) {
                 for (x, y) in [(0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)] {
@@ -200,8 +202,8 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             let step = if width >= 7 && sampler.ratio(1, 2) { 3 } else { 2 };
             for y in (1..height - 1).step_by(2) {
                 for x in (1..width.div_ceil(2)).step_by(step) {
-                    // The pillars are symmetric from left to right. Two adjacent pillars would form a stub, so one is
-                    // left out.
+                    // The pillars are symmetric from left to right. Two adjacent pillars would form a stub, so both are
+                    // omitted.
                     if width - 1 - x != x + 1 {
                         wall(x, y);
                         wall(width - 1 - x, y);
@@ -223,7 +225,8 @@ fn style(style: Style, area: Rectangle, board: &mut Board, sampler: &mut Sampler
             }
         }
         Style::Ring => {
-            // A large block has an aisle in its middle, which makes two loops. The block's corners may be missing.
+            // A large block has an aisle through its middle, which creates two loops. The corners of the block may be
+            // missing.
             let in_aisle = |at: usize, size: usize| size >= 7 && (at == size / 2 || at == (size - 1) / 2);
             let is_worn = width > 5 && height > 5 && sampler.ratio(1, 2);
             for y in 1..height - 1 {

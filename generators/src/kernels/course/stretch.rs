@@ -1,18 +1,19 @@
-//! Enlarges boards. A column or row can be doubled if doubling does not change any path or separate adjacent sprites.
+//! Enlargement of boards. A column or row can be doubled if doubling it neither changes a path nor separates adjacent
+//! sprites.
 
 use super::Board;
 use super::cell::Cell;
 use base::Sampler;
 
-/// The minimum number of cells at which a type counts as ground rather than as separate sprites. Ground is continued
-/// into doubled lines.
+/// The minimum number of cells at which a type counts as ground rather than as separate sprites. Ground continues into
+/// doubled lines.
 const GROUND: usize = 6;
 
 /// Doubles columns and rows, chosen at random, until the board is large enough or no line can be doubled.
 ///
-/// A gap between two lines can be filled if each pair of cells facing across the gap is the same ground or includes
-/// floor or wall. A new cell is wall next to a wall, floor next to floor, and otherwise the ground on both sides. As a
-/// result, paths neither open nor close.
+/// A new line can be inserted between two lines if each pair of facing cells consists of the same ground or includes
+/// floor or a wall. A new cell becomes a wall next to a wall, floor next to floor, and otherwise the ground of both
+/// sides. Thus, no path is opened or closed.
 pub(super) fn stretch(board: Board, (columns, rows): Cell, sampler: &mut Sampler) -> Board {
     let wider = widened(board, columns, sampler);
     widened(wider.transposed(), rows, sampler).transposed()
@@ -20,7 +21,7 @@ pub(super) fn stretch(board: Board, (columns, rows): Cell, sampler: &mut Sampler
 
 fn widened(mut board: Board, columns: usize, sampler: &mut Sampler) -> Board {
     while board.columns < columns {
-        // The rim keeps its width.
+        // The border keeps its width.
         let gaps: Vec<(usize, Vec<Option<String>>)> =
             (2..board.columns - 1).filter_map(|x| Some((x, between(&board, x)?))).collect();
         if gaps.is_empty() {
@@ -102,7 +103,7 @@ mod tests {
         counts
     }
 
-    /// Returns the sprites within the hero's reach.
+    /// Returns the sprites that the hero can reach.
     fn reached(board: &Board) -> Vec<String> {
         let cells = (0..board.rows).flat_map(|y| (0..board.columns).map(move |x| (x, y)));
         let start = cells.into_iter().find(|&cell| board.at(cell) == Some("a")).unwrap();
@@ -128,7 +129,7 @@ mod tests {
             };
             assert_eq!(things(&after), things(&before));
             assert_eq!(reached(&after), reached(&before));
-            // Adjacent things stay adjacent, ground continues, and the rim is as wide as before.
+            // Adjacent sprites stay adjacent, ground continues, and the border is as wide as before.
             let row =
                 |y: usize| (0..after.columns).map(|x| after.at((x, y)).unwrap_or(".")).collect::<String>();
             let rows: Vec<String> = (0..after.rows).map(row).collect();

@@ -7,7 +7,7 @@ pub(crate) static KERNELS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/kernels")
 /// The scene files.
 pub(crate) static SCENES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenes");
 
-/// Returns a folder's TOML files, sorted by name, with their names without the extension.
+/// Returns the name (without extension) and content of each TOML file in a folder, sorted by name.
 pub(crate) fn files(folder: &'static Dir<'static>) -> impl Iterator<Item = (&'static str, &'static str)> {
     let file = |path: &'static std::path::Path| path.file_name()?.to_str()?.strip_suffix(".toml");
     let mut files: Vec<(&str, &str)> =

@@ -10,23 +10,23 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Form {
     pub(crate) name: String,
-    /// The sentence that replaces the kernel's dilemma, for a form that lacks types mentioned in that dilemma.
+    /// The sentence that replaces the kernel's dilemma in a form that lacks types mentioned there.
     dilemma: Option<String>,
     goal: String,
     /// The types missing from the form. Sentences, levels, variants and rules that mention these types are omitted.
     #[serde(default)]
     without: Vec<String>,
-    /// `true` if the form has only the levels that name it.
+    /// `true` if the form has only the levels that are marked as its own.
     #[serde(default)]
     own_levels: bool,
-    /// `true` if the form has only its own listed facts.
+    /// `true` if the form has only the facts that it lists itself.
     #[serde(default)]
     own_facts: bool,
     #[serde(default)]
     facts: Vec<String>,
     #[serde(default)]
     titles: Vec<String>,
-    /// Lines for the SpriteSet. A line with a kernel type's name replaces that type.
+    /// Lines for the SpriteSet. A line with the name of a kernel type replaces that type.
     #[serde(default)]
     sprites: String,
     /// Interactions that replace the kernel's interactions between the same types.
@@ -77,8 +77,7 @@ impl Form {
         }
     }
 
-    /// Returns the types missing from the form that its levels may still name. Such types are omitted from the
-    /// levels.
+    /// Returns the missing types that the form's levels may still name. Such types are omitted from the levels.
     pub(crate) fn absent(&self) -> &[String] {
         &self.without
     }
@@ -121,7 +120,7 @@ impl Form {
                             .for_each(|new| add(&format!("{margin}{}", new.trim_start())));
                     }
                     match own.iter().find(|own| name(own) == name(line)) {
-                        // A type in a group stays in the group.
+                        // A replaced type stays in its group.
                         Some(own) => add(&format!("{margin}{}", own.trim_start())),
                         None if self.lacks(name(line)) => {}
                         None => add(line),
@@ -134,8 +133,8 @@ impl Form {
         text
     }
 
-    /// Returns an InteractionSet line without the types missing from the form; `None` if nothing remains of the
-    /// line, or if the form replaces it.
+    /// Returns an InteractionSet line without the types that the form lacks; `None` if nothing remains of the line, or
+    /// if the form replaces it.
     fn interaction(&self, line: &str) -> Option<String> {
         let (sides, effect) = line.split_once('>')?;
         let param = |word: &str| {

@@ -1,8 +1,8 @@
 //! A kernel: a small set of coupled rules around one dilemma, with the maps of its levels.
 //!
-//! A kernel is a file in `generators/kernels/`. The file contains VGDL rules with scene-independent names, and the
-//! role of every type. For each of five slots, the file also contains the maps that pose the dilemma.
-//! `docs/reference/kernels.md` is the manual.
+//! A kernel is a file in `generators/kernels/`. The file contains VGDL rules whose names do not depend on a scene, the
+//! role of every type and, for each of five slots, the maps that pose the dilemma. `docs/reference/kernels.md` is the
+//! manual.
 
 use super::form::Form;
 use super::map::Map;
@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::iter;
 use std::sync::OnceLock;
 
-/// A kernel, ready for numbers and nouns to be drawn.
+/// A kernel whose numbers and nouns have not been drawn yet.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub(crate) name: String,
@@ -23,7 +23,7 @@ pub(crate) struct Kernel {
     pub(crate) kind: Kind,
     /// The name of a similar kernel. A small set contains only one of the two.
     pub(crate) like: Option<String>,
-    /// A sentence that describes the whole game, with nouns as `<type>`.
+    /// A sentence that describes the whole game, with placeholders such as `<type>` for nouns.
     pub(crate) dilemma: String,
     pub(crate) goal: String,
     pub(crate) facts: Vec<String>,
@@ -59,9 +59,9 @@ pub(crate) enum Casting {
     Role(String),
     /// A different state of another type.
     State {
-        /// The other type, or a role without a type of its own.
+        /// The other type, or a role that no type has by itself.
         of: String,
-        /// The word to put before the noun of `of`.
+        /// The adjective that precedes the noun of `of`.
         adjective: String,
     },
 }
@@ -78,20 +78,20 @@ impl Casting {
 base::named_enum! {
     /// A level's purpose in a course of five levels, in course order.
     pub enum Slot {
-        /// The level shows the trick in a small and safe form.
+        /// The level introduces the trick in a small and safe setting.
         Introduce = "introduce",
-        /// The level repeats the trick in a setting with costly mistakes.
+        /// The level repeats the trick in a setting where mistakes are costly.
         Confirm = "confirm",
         /// The level combines the trick with a second mechanic.
         Combine = "combine",
-        /// The level turns the familiar trick around.
+        /// The level puts a twist on the familiar trick.
         Twist = "twist",
         /// The level requires everything, with little slack.
         Exam = "exam",
     }
 }
 
-/// A level's map, and its question to the player.
+/// The map of a level, and the level's question to the player.
 #[derive(Debug)]
 pub(crate) struct LevelPlan {
     pub(crate) slot: Slot,
@@ -99,7 +99,7 @@ pub(crate) struct LevelPlan {
     map: Template,
 }
 
-/// Rules that deepen the dilemma of some games.
+/// Additional rules that deepen the dilemma in some games.
 #[derive(Debug)]
 pub(crate) struct Variant {
     pub(crate) name: String,
@@ -131,7 +131,7 @@ pub(crate) struct File {
     pub(crate) titles: Vec<String>,
     pub(crate) divider: Option<String>,
     pub(crate) rules: String,
-    /// The rules of the kernel itself, in a form's file. Maps use the numbers introduced in these rules.
+    /// For a form, the rules of the kernel itself. Maps use the numbers introduced in these rules.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -151,7 +151,7 @@ pub(crate) struct File {
 pub(crate) struct LevelFile {
     slot: Slot,
     pub(crate) asks: String,
-    /// The only form with this level; `None` for all forms.
+    /// The only form that has this level; `None` if all forms have it.
     pub(crate) form: Option<String>,
     map: String,
 }
@@ -195,7 +195,7 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// Returns the first error, such as an error in the format, in a number or in a map, or a slot without a level.
+    /// Returns the first error. Examples are errors in the format, in a number or in a map, and a slot without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
@@ -224,7 +224,7 @@ impl Kernel {
         Ok(Kernel { forms, ..Kernel::of_file(name, own, None)? })
     }
 
-    /// Reads the texts from a file, or for one of the file's forms.
+    /// Reads a kernel or, if `form` is given, one of its forms from the texts in its file.
     fn of_file(name: &str, file: File, form: Option<&Form>) -> Result<Kernel, KernelError> {
         let form_name = form.map(|form| form.name.clone());
         let shown = form_name.as_ref().map_or_else(|| name.to_owned(), |form| format!("{name}, form {form}"));
@@ -356,8 +356,8 @@ impl Kernel {
         text
     }
 
-    /// Returns `true` if the kernel or one of its variants declares the type, or may name it although it is missing
-    /// from this form.
+    /// Returns `true` if the kernel or one of its variants declares the type, or if maps may name it although this form
+    /// lacks it.
     pub(crate) fn knows(&self, stype: &str) -> bool {
         stype == "wall"
             || self.absent.iter().any(|absent| absent == stype)
@@ -373,7 +373,7 @@ impl LevelPlan {
     }
 }
 
-/// Indents a section's lines below its name, regardless of the indentation in the file.
+/// Indents the lines of a section below its name, whatever their indentation in the file.
 fn indented(lines: &str) -> String {
     let depth = |line: &str| line.len() - line.trim_start().len();
     let least = lines.lines().filter(|line| !line.trim().is_empty()).map(depth).min().unwrap_or(0);

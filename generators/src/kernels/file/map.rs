@@ -1,4 +1,4 @@
-//! A level's map: a graph of rooms, in the kernel file language.
+//! A level's map, which is a graph of rooms in the language of kernel files.
 //!
 //! ```text
 //! home: hero, exit@far
@@ -26,11 +26,11 @@ pub(crate) struct Room {
     pub(crate) items: Vec<Item>,
 }
 
-/// A drawn piece that makes up a room.
+/// A drawn piece that forms a room.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PieceUse {
     pub(crate) name: String,
-    /// `true` if rotating or mirroring the piece is not allowed.
+    /// `true` if the piece must not be mirrored.
     pub(crate) as_is: bool,
 }
 
@@ -50,13 +50,13 @@ pub(crate) enum Size {
 /// A room's interior walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Style {
-    /// No interior walls, or only all corners cut.
+    /// No interior walls, except that all four corners may be cut.
     #[default]
     Plain,
     Open,
     Pillars,
     Bends,
-    /// A block in the middle, to run around.
+    /// A block in the middle that the player can circle.
     Ring,
 }
 
@@ -81,7 +81,7 @@ pub(crate) enum Place {
     Near,
     Centre,
     Corner,
-    /// Positions in the longest free line along the type's direction of movement.
+    /// Positions on the longest free line along the type's direction of movement.
     Lane,
     /// Positions next to each other in a line.
     Row,
@@ -115,8 +115,8 @@ impl Map {
     /// Reads a level's map.
     ///
     /// # Errors
-    /// Returns an error for the first line that cannot be parsed or that names an unknown room, or for an
-    /// unreachable room.
+    /// Returns an error for the first line that cannot be parsed or that names an unknown room. Also returns an error
+    /// if a room is unreachable.
     pub(crate) fn read(text: &str) -> Result<Map, MapError> {
         let mut map = Map::default();
         let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -180,8 +180,8 @@ impl Map {
         reached.iter().position(|reached| !reached)
     }
 
-    /// Returns the map without bare dead ends. A bare dead end is a room with a single link, where neither the room
-    /// nor the opening contains a type in the game.
+    /// Returns the map without bare dead ends. A bare dead end is a room with a single link, where neither the room nor
+    /// the opening contains a type of the game.
     #[must_use]
     pub(crate) fn without_bare_ends(mut self, is_present: impl Fn(&str) -> bool) -> Map {
         let is_bare = |map: &Map, number: usize| {
@@ -217,7 +217,7 @@ impl Map {
 }
 
 impl Link {
-    /// Returns the room at the other end of the link.
+    /// Returns the room at the other end of the link; `None` if the link does not start at `room`.
     pub(crate) fn from(&self, room: usize) -> Option<usize> {
         match self.between {
             (one, two) if one == room => Some(two),

@@ -1,4 +1,4 @@
-//! Texts containing numbers that are drawn when a game is generated: `{2..4}`, `{price:2..4}`, `{price}`,
+//! Texts with placeholders for numbers that are drawn when a game is generated: `{2..4}`, `{price:2..4}`, `{price}`,
 //! `{price+1}`.
 
 /// A kernel's numbers, in the order in which its texts introduce them.
@@ -41,7 +41,7 @@ pub(crate) struct Template(Vec<Part>);
 #[derive(Clone, Debug, PartialEq)]
 enum Part {
     Text(String),
-    /// The number's index, and the amount to add to its value.
+    /// The index of a number, and the amount to add to its value.
     Number(usize, i64),
 }
 
@@ -73,8 +73,8 @@ impl Template {
     }
 }
 
-/// Returns a text with the values of numbers introduced in other texts. If the text contains any other number,
-/// returns the text unchanged.
+/// Returns a text filled with the values of numbers that other texts introduce. If the text contains any other number,
+/// returns it unchanged.
 pub(crate) fn filled(text: &str, numbers: &Numbers, values: &[u32]) -> String {
     Template::read(text, &mut numbers.clone()).map_or_else(|_| text.to_owned(), |text| text.fill(values))
 }

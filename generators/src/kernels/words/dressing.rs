@@ -15,7 +15,8 @@ pub(crate) struct Palette<'a> {
     nouns: &'a Nouns,
     hero: &'static str,
     taken: Vec<String>,
-    /// The colours, by type. A state's colour is stored under the role of its type.
+    /// The colours assigned so far, by type. The colour of a state is stored under the type or role of which it is a
+    /// state.
     given: BTreeMap<String, String>,
 }
 
@@ -28,7 +29,7 @@ impl<'a> Palette<'a> {
 
     /// Assigns a colour to every type.
     pub(crate) fn color_all(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>) {
-        // A state takes the colour of its thing, which may be on a later line.
+        // A state takes the colour of its thing, whose line may come later.
         self.color(lines, roles, false);
         self.color(lines, roles, true);
     }
@@ -54,8 +55,8 @@ impl<'a> Palette<'a> {
         }
     }
 
-    /// Draws a colour. The player gets the colour from the habits, a noun with a natural colour gets that
-    /// colour, and any other type gets a colour suitable for its role.
+    /// Draws a colour for a type. The player gets the colour from the habits, a noun with a natural colour gets that
+    /// colour, and any other type gets a colour that suits its role.
     fn draw(&mut self, name: &str, role: &str) -> String {
         let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
         let free = |color: &&str| !self.taken.iter().any(|taken| taken == color);
@@ -70,8 +71,7 @@ impl<'a> Palette<'a> {
     }
 }
 
-/// Sets an image for every type: `img=role/noun`, or `img=role/adjective/noun` for an object in a different
-/// state.
+/// Sets an image for every type: `img=role/noun` or, for a state of another type, `img=role/adjective/noun`.
 pub(crate) fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>, nouns: &Nouns) {
     for line in lines {
         let name = line.name.text.as_str();
@@ -84,7 +84,7 @@ pub(crate) fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Ca
                     Some(Casting::Role(role)) => role,
                     _ => of,
                 };
-                // The noun of a state is the adjective and the noun of the thing.
+                // The noun of a state consists of an adjective and the noun of the thing.
                 let thing = noun.strip_prefix(adjective.as_str()).unwrap_or(noun);
                 let mut letters = thing.chars();
                 let first = letters.next().map(|letter| letter.to_ascii_lowercase());

@@ -1,6 +1,6 @@
 //! The natural colours of objects.
 
-/// Colours and the nouns that naturally have each colour. A noun is listed by its last word, or in full if it
+/// Colours, each with the nouns whose objects naturally have it. A noun is listed by its last word, or in full if it
 /// differs from other nouns with the same last word.
 const NATURAL: &[(&str, &str)] = &[
     (
@@ -65,7 +65,7 @@ const NEAR: &[(&str, &[&str])] = &[
     ("YELLOW", &["LIGHTYELLOW", "GOLD"]),
 ];
 
-/// Returns an object's natural colours, from most to least suitable; empty if the natural colour is unknown.
+/// Returns an object's natural colours, from most to least suitable. Returns no colours if none are known.
 pub(crate) fn natural(noun: &str) -> impl Iterator<Item = &'static str> {
     let best = best(noun);
     let near =

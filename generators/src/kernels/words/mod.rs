@@ -1,4 +1,4 @@
-//! The texts of games: scene nouns, names, sentences and colours.
+//! The words of games: scene nouns, names and sentences, along with the colours that suit them.
 
 pub(crate) mod dressing;
 pub(crate) mod hues;

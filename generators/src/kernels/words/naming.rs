@@ -10,7 +10,7 @@ use crate::kernels::file::kernel::Casting;
 use base::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Last words of nouns that are too vague on their own.
+/// Last words that are too vague to stand for their noun.
 const VAGUE: &[&str] = &[
     "bar", "bay", "block", "board", "butt", "can", "car", "case", "circle", "corner", "cutting", "flag",
     "flat", "head", "hill", "hold", "hole", "hook", "house", "in", "jet", "light", "litter", "machine",
@@ -22,7 +22,8 @@ const VAGUE: &[&str] = &[
 /// Last words that denote an amount of a material. Authors name the material instead.
 const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
 
-/// The maximum length of a state's full name. The name of a state with a longer name is the adjective alone.
+/// The maximum length of a state's full name. If the full name would be longer, the state is named by its adjective
+/// alone.
 const LONGEST: usize = 20;
 
 /// Draws the names of a game's types, by their names in the kernel. `wall` and types without a noun keep their names.
@@ -38,7 +39,7 @@ pub(crate) fn names<'a>(
     let mut names = Names { nouns, given: BTreeMap::new(), taken };
     let habit = sampler.below(3);
     names.give("floor", &[["floor", "floor", "ground"][habit]]);
-    // Authors name the player after its part in the story, and some authors call it `avatar`.
+    // Most authors name the player after its part in the story, and some call it `avatar`.
     if sampler.below(4) == 0 && !names.taken.contains("avatar") {
         names.give("hero", &["avatar"]);
     }
@@ -63,7 +64,7 @@ struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Assigns to an unnamed type the first free candidate, or otherwise the last candidate with a number.
+    /// Names an unnamed type with the first free candidate or, if none is free, with the last candidate and a number.
     fn give(&mut self, stype: &str, candidates: &[&str]) {
         if self.given.contains_key(stype) {
             return;
@@ -78,11 +79,11 @@ impl Names<'_> {
 
     fn state(&mut self, stype: &str, of: &str, adjective: &str) {
         let noun = &self.nouns[stype];
-        // The noun of a state is the adjective and the noun of the thing.
+        // The noun of a state consists of an adjective and the noun of the thing.
         let thing = noun.strip_prefix(adjective).unwrap_or(noun);
         let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
         let both = format!("{adjective}{}", english::capital(&thing));
-        // A kernel has a separate word for some states, such as a follower, ashes or `dazed`.
+        // Some kernels have a word of their own for a state, such as a follower, ashes or `dazed`.
         let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
         let tells_more = is_word && !vocabulary::is_role(stype);
         let first = match (of, adjective) {

@@ -60,7 +60,7 @@ fn phrase(inside: &str, nouns: &Nouns, headline: fn(&str) -> String) -> Option<S
     Some(if capital { headline(&phrase) } else { phrase })
 }
 
-/// Returns `true` if a sentence mentions a type in any form.
+/// Returns `true` if a sentence contains a placeholder for a type, in any form.
 pub(crate) fn tells_of(sentence: &str, stype: &str) -> bool {
     let only = Nouns::from([(stype.to_owned(), stype.to_owned())]);
     sentence
@@ -70,7 +70,7 @@ pub(crate) fn tells_of(sentence: &str, stype: &str) -> bool {
         .any(|(inside, _)| fill(&format!("<{inside}>"), &only).is_ok())
 }
 
-/// Capitalises a sentence, and adds a full stop unless the sentence has final punctuation.
+/// Capitalises a sentence, and adds a full stop if it lacks final punctuation.
 pub(crate) fn sentence(text: &str) -> String {
     let text = english::capital(text.trim());
     if text.ends_with(['.', '?', '!']) { text } else { text + "." }

@@ -1,4 +1,4 @@
-//! Scenes: characters, their aims and their setting, and the nouns for the roles of sprite types.
+//! Scenes. A scene has a character, an aim and a setting, and nouns for the roles of sprite types.
 
 use crate::kernels::file::kernel::{Casting, Kernel};
 use base::Sampler;
@@ -23,19 +23,19 @@ pub(crate) struct Scene {
     pub(crate) titles: Vec<String>,
     /// The nouns for the roles. Alternatives for different games are separated by commas.
     pub(crate) cast: BTreeMap<String, String>,
-    /// The texts around the nouns, for games with arbitrary rules; `None` unless the scene has a noun for every role
+    /// The texts that surround the nouns in games with arbitrary rules; `None` if the scene lacks a noun for a role
     /// that types can play in such games.
     retelling: Option<Retelling>,
-    /// The kernels suited to this scene, each with the nouns that differ for that kernel.
+    /// The kernels that suit this scene, each with the nouns that differ for that kernel.
     #[serde(default)]
     pub(crate) kernels: BTreeMap<String, BTreeMap<String, String>>,
 }
 
-/// The setting and the title words for a game written with different nouns.
+/// The setting and the title words for a rethemed game.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Retelling {
-    /// The game's setting, with a preposition.
+    /// The game's setting, including a preposition.
     pub(crate) place: String,
     /// Adjectives for titles, separated by commas.
     adjectives: String,
@@ -179,8 +179,8 @@ mod tests {
         assert_eq!(named.len(), OF_ANY_GAME.len());
     }
 
-    /// Types from any rules may occur in the same game. Each role therefore has its own nouns, all of which are
-    /// valid as sprite types in VGDL.
+    /// A game can have types in any combination of roles. Each role therefore has its own nouns, all of which are valid
+    /// names for sprite types in VGDL.
     #[test]
     fn no_noun_of_any_game_serves_two_roles() {
         let reserved = ["wall", "avatar", "eos", "time", "up", "down", "left", "right", "none", "nil"];
@@ -199,7 +199,7 @@ mod tests {
         }
     }
 
-    /// Sentences put an article before a noun or make it plural ("bear traps lie in wait"), so plural nouns would be
+    /// Sentences add an article to a noun or form its plural ("bear traps lie in wait"), so a plural noun would be
     /// ungrammatical. Only the nouns for floor, walls and rubble are used unchanged.
     #[test]
     fn nouns_of_any_game_are_singular() {

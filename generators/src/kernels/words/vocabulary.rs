@@ -1,4 +1,4 @@
-//! The roles of kernels and scenes, and their colours.
+//! The roles that kernels and scenes use, and the colours of each role.
 
 use crate::games::palette::COLORS;
 
@@ -33,8 +33,7 @@ pub(crate) fn is_role(word: &str) -> bool {
     SUITING.iter().any(|(roles, _)| roles.contains(&word))
 }
 
-/// Returns a colour that is suitable for the role and not used by any other type, as long as there are
-/// enough colours.
+/// Returns a colour that suits the role. The colour is not used by any other type, as long as there are enough colours.
 pub(crate) fn color(role: &str, taken: &[String]) -> &'static str {
     let suiting =
         SUITING.iter().find(|(roles, _)| roles.contains(&role)).map_or(&[][..], |(_, colors)| colors);

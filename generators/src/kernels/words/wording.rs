@@ -1,9 +1,8 @@
-//! The goals and summaries that generators can write about given rules. A card's texts are checked against these goals
-//! and summaries.
+//! The goals and summaries that generators can write about given rules. They serve to check the texts of cards.
 //!
-//! A kernel's texts are sentences with placeholders for nouns and numbers. A game's nouns are recorded in its images
-//! (`img=role/noun`), so every sentence about the game is known except for its numbers. Texts about retold games follow
-//! from the rules alone.
+//! A kernel's texts are sentences with placeholders for nouns and numbers. A game's images record its nouns
+//! (`img=role/noun`), so every sentence about the game is known except for its numbers. The texts of rethemed games
+//! follow from the rules alone.
 
 use super::phrase::{self, Nouns};
 use super::scene::Scene;
@@ -64,8 +63,7 @@ struct OfKernel {
 }
 
 impl OfKernel {
-    /// Finds the kernel, form, scene and variants in the patterns; `None` if the patterns do not contain a known kernel
-    /// and scene.
+    /// Finds the kernel, form, scene and variants in the patterns; `None` if the patterns lack a known kernel or scene.
     fn read(game: &Game, patterns: &[String]) -> Option<OfKernel> {
         let named = |kind: &'static str| patterns.iter().filter_map(move |name| name.strip_prefix(kind));
         let (name, form) = (named("kernel/").next()?, named("form/").next());
@@ -91,7 +89,7 @@ impl OfKernel {
         own.map(|sentence| (sentence.as_str(), &self.nouns)).collect()
     }
 
-    /// Returns `true` if a text consists of the given sentences, separated by spaces and filled with the game's nouns.
+    /// Returns `true` if a text consists of the given sentences with the game's nouns inserted, separated by spaces.
     fn says(&self, sentences: &[(&str, &Choices)], text: &str) -> bool {
         let mut rests = vec![text];
         for (at, (sentence, nouns)) in sentences.iter().enumerate() {
@@ -120,7 +118,7 @@ fn pictures(game: &Game) -> Vec<Vec<String>> {
     found
 }
 
-/// Returns the nouns possible for each type, according to the images.
+/// Returns the nouns that each type can have according to the images.
 fn choices<'a>(
     pictures: &[Vec<String>],
     castings: impl Iterator<Item = (&'a String, &'a Casting)>,
@@ -146,8 +144,8 @@ fn choices<'a>(
     ["floor", "wall"].map(|role| (role.to_owned(), of_role(role))).into_iter().chain(own).collect()
 }
 
-/// Matches a sentence, with any of the nouns and any numbers filled in, at the start of the text. Returns every
-/// possible rest of the text after the match.
+/// Matches a sentence at the start of a text, with any of the nouns and any numbers filled in. Returns the rest of the
+/// text after each possible match.
 fn after<'t>(sentence: &str, nouns: &Choices, text: &'t str, is_start: bool) -> Vec<&'t str> {
     let Some(at) = sentence.find(['<', '{']) else {
         return text.strip_prefix(sentence).into_iter().collect();

@@ -13,9 +13,10 @@ pub(crate) struct Board {
     pub(crate) wall: Vec<bool>,
     /// The character placed in each cell; `None` for empty cells.
     pub(crate) placed: Vec<Option<u8>>,
-    /// For each cell, `true` if it must be kept free.
+    /// For each cell, `true` if it is reserved and must stay free.
     pub(crate) kept: Vec<bool>,
-    /// For each cell, the number of the gate in front of it, in the order of placement; 0 if there is no gate.
+    /// For each cell, the number of the gate in front of it, counting gates in the order of placement; 0 without a
+    /// gate.
     pub(crate) zone: Vec<u8>,
     /// The cell where the avatar starts.
     pub(crate) start: usize,
@@ -30,7 +31,7 @@ impl Board {
         Board { grid, wall, placed, kept, zone, start: 0, pushing: false }
     }
 
-    /// Returns `true` if a cell has no wall, no character, and is not kept free.
+    /// Returns `true` if a cell has neither a wall nor a character, and is not reserved.
     pub(crate) fn is_free(&self, cell: usize) -> bool {
         !self.wall[cell] && self.placed[cell].is_none() && !self.kept[cell]
     }
@@ -49,7 +50,7 @@ impl Board {
         self.wall.iter().filter(|&&wall| !wall).count()
     }
 
-    /// Returns `true` if the avatar can walk into the cell at the start of the level, including through breakable
+    /// Returns `true` if the avatar can enter the cell at the start of the level. Breakable obstacles do not count as
     /// obstacles.
     pub(crate) fn is_walkable(&self, palette: &Palette, cell: usize) -> bool {
         let open = |symbol: u8| match palette.walk(symbol) {
@@ -60,13 +61,13 @@ impl Board {
         !self.wall[cell] && self.placed[cell].is_none_or(open)
     }
 
-    /// Returns the distances in steps from the avatar's start, avoiding locked and deadly cells.
+    /// Returns the number of steps from the avatar's start to each cell, avoiding locked and deadly cells.
     pub(crate) fn steps(&self, palette: &Palette) -> Vec<u32> {
         self.grid.flood(&[self.start], |cell| self.is_walkable(palette, cell))
     }
 
-    /// Returns `true` if an obstacle in the cell would cut off other cells. Locked cells count as open, because they
-    /// will be opened.
+    /// Returns `true` if an obstacle in the cell would cut off other cells. Locked cells count as open, because the
+    /// avatar will open them.
     pub(crate) fn would_cut(&self, palette: &Palette, cell: usize) -> bool {
         let locked = |symbol: u8| matches!(palette.walk(symbol), Walk::Locked(_));
         let open = |cell: usize| self.is_walkable(palette, cell) || self.placed[cell].is_some_and(locked);
@@ -98,8 +99,8 @@ impl Board {
         text
     }
 
-    /// Returns the cells that the avatar can reach by taking every reachable key and opening the keys' locks. Keys are
-    /// used up and counted. Cost: O(locks × cells).
+    /// Returns, for each cell, `true` if the avatar can reach it by taking every reachable key and opening the locks.
+    /// Keys that locks use up are counted. Cost: O(locks × cells).
     pub(crate) fn reach(&self, analysis: &Analysis, palette: &Palette) -> Vec<bool> {
         let mut opened = vec![false; self.grid.len()];
         let mut spent: Vec<i64> = vec![0; analysis.locks().len()];

@@ -11,10 +11,10 @@ use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, SpriteType};
 
-/// The weight factor for a cell next to a companion: a sprite that in the examples almost always stands next to such a
-/// sprite.
+/// The weight factor for a cell next to a companion, which is a sprite that almost always stands next to such a sprite
+/// in the examples.
 const COMPANION_WEIGHT: u32 = 1000;
-/// The weight factor for a cell in line with other sprites of the type, for types that stand in lines in the examples.
+/// For types that stand in lines in the examples, the weight factor for a cell in line with other sprites of the type.
 const LINE_WEIGHT: u32 = 40;
 
 /// A level under construction, with all data needed for decisions about it.
@@ -31,7 +31,7 @@ pub(crate) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Places a sprite of the type in a cell. Any additional cells covered by the sprite are kept free.
+    /// Places a sprite of the type in a cell. Other cells that the sprite covers are reserved.
     pub(crate) fn put(&mut self, cell: usize, stype: SpriteType) {
         self.board.placed[cell] = self.palette.symbol(stype);
         self.log.push((cell, stype));
@@ -41,7 +41,7 @@ impl Builder<'_> {
     }
 
     /// Places one of the possible initial avatars in the cell, or as near as possible if the avatar is larger than a
-    /// cell. A wall around the board stays closed.
+    /// cell. If the board is surrounded by walls, no gap is made in them.
     pub(crate) fn put_avatar(&mut self, cell: usize) {
         let (stype, symbol) = *self.sampler.choose(&self.palette.avatars);
         let grid = self.board.grid;
@@ -64,7 +64,7 @@ impl Builder<'_> {
         self.board.grid.block(cell, self.analysis.facts(stype).span)
     }
 
-    /// Returns `true` if all cells covered by a sprite of the type would be on the board and free.
+    /// Returns `true` if all cells that a sprite of the type would cover are on the board and free.
     pub(crate) fn fits(&self, cell: usize, stype: SpriteType) -> bool {
         let (columns, rows) = self.analysis.facts(stype).span;
         if (columns, rows) == (1, 1) {
@@ -153,7 +153,8 @@ impl Builder<'_> {
         self.config.like.as_deref()
     }
 
-    /// Returns a cell's weight according to the example positions of sprites of the type.
+    /// Returns the weight of a cell for a sprite of the type, according to the positions of such sprites in the
+    /// examples.
     pub(crate) fn example_weight(&self, cell: usize, stype: SpriteType) -> u32 {
         let (Some(examples), Some(target)) = (self.examples(), &self.target) else { return 1 };
         let grid = self.board.grid;
@@ -164,7 +165,7 @@ impl Builder<'_> {
                 weight = weight.saturating_mul(COMPANION_WEIGHT);
             }
         }
-        // Sprites already on the board may want this sprite next to them.
+        // Sprites already on the board may need this sprite next to them.
         for &(there, kind) in &self.log {
             let wants = |&(way, other): &((i32, i32), SpriteType)| {
                 other == stype && grid.shift(there, way) == Some(cell)
@@ -183,13 +184,13 @@ impl Builder<'_> {
         weight
     }
 
-    /// Returns the types expected in the level if there are examples.
+    /// Returns the types that the level should contain according to the examples, if there are any.
     pub(crate) fn expected(&self) -> Vec<SpriteType> {
         let Some(target) = &self.target else { return Vec::new() };
         self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
     }
 
-    /// Draws whether a sprite must stand next to another sprite of its type, with the probability found in the
+    /// Draws `true` if a sprite must stand next to another sprite of its type, with the probability found in the
     /// examples; `None` if the position does not matter.
     pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
         let share = self.examples()?.placement(stype).grouped();
@@ -197,8 +198,8 @@ impl Builder<'_> {
         (!first).then(|| self.sampler.unit() < 0.8 * share)
     }
 
-    /// Returns the cell mirrored from left to right, if sprites of the type occur in pairs in the examples and the cell
-    /// is free.
+    /// Returns the mirror image of the cell from left to right, if it is free and sprites of the type occur in such
+    /// pairs in the examples.
     pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
         self.examples().filter(|examples| examples.placement(stype).is_mirrored())?;
         let grid = self.board.grid;
@@ -245,7 +246,7 @@ impl Builder<'_> {
         self.analysis.role(stype)
     }
 
-    /// Returns the distances in steps from the avatar's start.
+    /// Returns the number of steps from the avatar's start to each cell.
     pub(crate) fn steps(&self) -> Vec<u32> {
         self.board.steps(self.palette)
     }
@@ -297,7 +298,7 @@ impl Builder<'_> {
         ahead && self.run(cell, way) >= (dx.abs() + dy.abs()) as usize
     }
 
-    /// Returns the direction in which a type, by itself, moves straight ahead or shoots.
+    /// Returns the direction in which sprites of the type move straight ahead or shoot by themselves.
     pub(crate) fn heading(&self, stype: SpriteType) -> Option<(i32, i32)> {
         if let Motion::Straight(direction) = self.analysis.facts(stype).motion {
             return way(direction);
@@ -320,7 +321,7 @@ impl Builder<'_> {
         near.min(room) as usize
     }
 
-    /// Returns the largest distance among the reachable cells.
+    /// Returns the largest number of steps to any reachable cell.
     pub(crate) fn radius(&self, steps: &[u32]) -> u32 {
         steps.iter().copied().filter(|&steps| steps != FAR).max().unwrap_or(0).max(1)
     }

@@ -1,4 +1,5 @@
-//! The constructive level generator. Builds the walls, furnishes the board by role, and then inspects the result.
+//! The constructive level generator. It builds the walls, furnishes the board according to the types' roles, and then
+//! inspects the result.
 
 use super::board::Board;
 use super::builder::Builder;
@@ -17,27 +18,27 @@ use engine::{Action, Analysis, Game, Level, SpriteType};
 
 /// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;
-/// The number of additional boards to try for optional wishes: cover, companions as in the examples, and some
-/// difficulty.
+/// The number of additional boards to try in order to meet optional wishes: the cover, companions as in the examples,
+/// and a level that is not trivial.
 const COVERS: u64 = 6;
 /// The maximum total number of cells on all tried boards. Large boards take longer.
 const PATIENCE: u64 = 2600;
-/// The number of boards to try for a puzzle. If all fail, the level is furnished like any other.
+/// The number of boards to try for a puzzle. If all of them fail, the level is furnished like a level without a puzzle.
 const PUZZLES: u64 = 30;
 
 /// The rank of a board that meets all wishes.
 const ALL: u32 = 0b1111;
-/// The number of layouts to draw. The layout whose walls are closest to the examples is used.
+/// The number of layouts to draw. The one whose walls are most similar to the examples is used.
 const LAYOUTS: usize = 2;
 /// The maximum fraction of inner walls at which a board counts as intentionally bare.
 const BARE: f64 = 0.02;
 
 /// Generates levels for any game, with the roles of its sprite types derived from the rules.
 ///
-/// Levels fit the game's LevelMapping and contain one avatar. No termination holds at the start. Everything needed for
-/// a win can be reached on foot, by shooting, or through locks whose keys can be reached first. An idle player
-/// survives the first ticks if the game allows it at all. Pushing puzzles come with a solution that has been played
-/// through.
+/// Levels fit the game's LevelMapping and contain one avatar. No termination holds at the start. Everything that a win
+/// needs can be reached on foot, by shooting, or through locks whose keys can be reached first. An idle player survives
+/// the first ticks, if the game permits that at all. Pushing puzzles come with a solution that has been tested by
+/// playing it.
 ///
 /// Cost: about a millisecond for a typical level. The cost grows with the square of the number of cells.
 pub struct ConstructiveLevels<'a> {
@@ -61,9 +62,9 @@ pub(crate) struct Made {
     pub(crate) board: Board,
     /// The actions that win the level; `None` if the generator does not know any.
     solution: Option<Vec<Action>>,
-    /// `true` if the board's puzzle has been played through.
+    /// `true` if the board contains a puzzle whose solution has been tested by playing it.
     pub(crate) played: bool,
-    /// The types expected in the level if there are examples.
+    /// The types that the level should contain according to the examples, if there are any.
     pub(crate) expected: Vec<SpriteType>,
 }
 
@@ -137,7 +138,7 @@ impl<'a> ConstructiveLevels<'a> {
     /// # Errors
     /// Returns [`GenerateError::Unlucky`] if every attempted board has a fault.
     pub fn generate_solved(&self, seed: Seed) -> Result<Solved, GenerateError> {
-        // The best board so far, ranked by the number and importance of the wishes that it meets.
+        // The best board so far, ranked by the wishes that it meets.
         let mut second_best: Option<(u32, Solved)> = None;
         let mut tried = 0;
         let mut fault = "no board could be filled with the required sprites".to_owned();
@@ -164,7 +165,7 @@ impl<'a> ConstructiveLevels<'a> {
                     if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
                         second_best = Some((rank, solved));
                     }
-                    // Stop early, because a wish that several boards have missed is unlikely to be met.
+                    // Stop early, because a wish that several boards have failed to meet is unlikely to be met.
                     tried += u64::from(survivable);
                     if tried > COVERS || tried * cells > PATIENCE {
                         break;
@@ -233,13 +234,13 @@ impl<'a> ConstructiveLevels<'a> {
             grid.columns -= usize::from(grid.columns & 1 == 0 && grid.columns > self.config.columns.0);
             grid.rows -= usize::from(grid.rows & 1 == 0 && grid.rows > self.config.rows.0);
         }
-        // If something chases the avatar, survival depends on alternative routes.
+        // If something chases the avatar, its survival depends on alternative routes.
         let chased = furnishable(&self.analysis, &self.palette, Role::Enemy)
             .into_iter()
             .any(|stype| matches!(self.analysis.facts(stype).motion, Motion::Chasing(_)));
         let loops =
             if chased { 0.8 - 0.3 * self.config.difficulty } else { 0.5 - 0.5 * self.config.difficulty };
-        // Closed layouts have a border even if nothing could leave the board, unless things wrap around to the other
+        // Closed layouts have a border even if no sprite could leave the board, unless sprites wrap around to the other
         // side.
         let wraps = self
             .analysis
@@ -261,7 +262,7 @@ impl<'a> ConstructiveLevels<'a> {
         Some(Made::plain(builder))
     }
 
-    /// Returns `true` if the avatar's goal is above it in the examples.
+    /// Returns `true` if the exits are above the avatar in the examples, or if there are no examples.
     fn crosses(&self) -> bool {
         let exits = furnishable(&self.analysis, &self.palette, Role::Exit);
         let avatar = self.palette.avatars[0].0;
@@ -278,8 +279,8 @@ impl<'a> ConstructiveLevels<'a> {
         }
     }
 
-    /// Draws walls like those in the examples. The walls are assembled from windows in the examples, or come from a
-    /// layout family that suits the game, with a similar number of walls.
+    /// Draws walls similar to those in the examples. They are assembled from windows of the examples, or come from a
+    /// layout family that suits the game and has a similar number of walls.
     fn walls_like(&self, target: &Target, ring: bool, loops: f64, layout: &mut Sampler) -> Vec<bool> {
         let grid = target.grid;
         let patterns = self.config.like.as_deref().map(|examples| &examples.patterns);
@@ -296,7 +297,7 @@ impl<'a> ConstructiveLevels<'a> {
                 layout::walls(family, grid, ring, loops, layout)
             })
         };
-        // Prefer the requested number of walls, in windows that could occur in the examples.
+        // Prefer layouts with the requested number of walls whose windows could occur in the examples.
         let off = |wall: &Vec<bool>| {
             let strange = patterns.map_or(0.0, |patterns| 1.0 - patterns.familiar(grid, wall));
             let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
@@ -346,7 +347,7 @@ impl<'a> ConstructiveLevels<'a> {
         Board::new(grid, layout::walls(family, grid, ring, loops, layout))
     }
 
-    /// Creates a pushing puzzle and plays it through. Returns `None` if the board does not work.
+    /// Creates a pushing puzzle and plays its solution. Returns `None` if the board does not work.
     fn puzzle(&self, plan: &Jobs, mut builder: Builder<'_>, seed: Seed) -> Option<Made> {
         let ways = builder.warehouse(plan)?;
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
@@ -358,7 +359,7 @@ impl<'a> ConstructiveLevels<'a> {
             return Some(Made { board: builder.board, solution: None, played: true, expected });
         }
         let furnished = self.play(&builder.board, &ways, plan.is_all, seed);
-        // If later furniture blocks the puzzle, the level omits that furniture, unless it only spoils the timing.
+        // If later furniture blocks the puzzle, the level goes without it, unless it only upsets the timing.
         let (board, actions) = match furnished {
             None if self.analysis.is_turn_based() => (puzzle, Some(bare)),
             actions => (builder.board, actions),
@@ -379,7 +380,7 @@ impl<'a> ConstructiveLevels<'a> {
     }
 }
 
-/// Describes a requested exact number that no level can satisfy; `None` if all requested numbers are satisfiable.
+/// Describes a requested number of sprites that no level can contain; `None` if all requested numbers are possible.
 fn unmet_count(analysis: &Analysis, palette: &Palette, config: &LevelConfig) -> Option<String> {
     let room = config.columns.1 * config.rows.1;
     let sum: usize = config.counts.iter().fold(0, |sum, (_, count)| sum.saturating_add(*count));

@@ -1,4 +1,4 @@
-//! The final inspection of a board, including playing puzzles through.
+//! The final inspection of a board, in which the solutions of puzzles are played.
 
 use super::board::Board;
 use super::constructive::{ConstructiveLevels, Made};
@@ -12,13 +12,13 @@ const GRACE_TICKS: usize = 12;
 const FUTURES: u64 = 4;
 /// The number of ticks within which an idle player should not win.
 const MAX_IDLE_TICKS: usize = 300;
-/// The maximum number of ticks for an idle player if survival wins. In deterministic games, also the number of random
-/// steps.
+/// The maximum number of ticks for which an idle player is tested if survival wins. In deterministic games, also the
+/// number of random actions to test.
 const MAX_TICKS: usize = 1000;
 
 impl ConstructiveLevels<'_> {
-    /// Converts a board to a level, or returns the board's problem. The `bool` is `true` if an idle player survives
-    /// the first ticks.
+    /// Converts a board to a level, or returns a description of the board's problem. The `bool` is `true` if an idle
+    /// player survives the first ticks.
     pub(crate) fn inspect(&self, made: &Made, seed: Seed) -> Result<(Level, bool), String> {
         let board = &made.board;
         let text = board.text(&self.palette);
@@ -67,7 +67,7 @@ impl ConstructiveLevels<'_> {
         Ok((level, self.is_survivable(&state, seed)))
     }
 
-    /// Returns `true` if a level is won by doing nothing, or by random steps in deterministic games.
+    /// Returns `true` if doing nothing wins the level, or if random actions win it in a deterministic game.
     pub(crate) fn is_trivial(&self, level: &Level, seed: Seed) -> bool {
         let start = self.game.start(level, seed);
         let wins = |ticks: usize, seed: Seed, act: &mut dyn FnMut(&State) -> Action| {
@@ -91,8 +91,8 @@ impl ConstructiveLevels<'_> {
             })
     }
 
-    /// Returns `true` if the types that are or should be on the board stand next to their companions, as they almost
-    /// always do in the examples.
+    /// Returns `true` if all expected types are on the board, and sprites stand next to their companions as often as in
+    /// the examples.
     pub(crate) fn has_companions(&self, made: &Made) -> bool {
         let Some(examples) = self.config.like.as_deref() else { return true };
         let board = &made.board;
@@ -116,8 +116,8 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Returns `true` if all harmless spawned chasers with a target other than the avatar can reach it by steps that
-    /// each bring them nearer. Chasers never take other steps.
+    /// Returns `true` if every harmless spawned chaser can reach its target by steps that each bring it nearer. Chasers
+    /// never take other steps.
     pub(crate) fn chasers_reach_targets(&self, board: &Board) -> bool {
         let grid = board.grid;
         let types = |cell: usize| {
@@ -143,7 +143,7 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Returns `true` if the target can be reached through open cells by steps that each lead nearer to the target.
+    /// Returns `true` if a path of open cells leads to the target such that each step brings it nearer.
     fn is_approached(&self, board: &Board, from: usize, aim: usize, open: impl Fn(usize) -> bool) -> bool {
         let grid = board.grid;
         let mut reached = vec![from];

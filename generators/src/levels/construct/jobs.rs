@@ -1,4 +1,4 @@
-//! The pushing tasks in a game: the pushes, the path that the pushes open, and the sprites to visit afterwards.
+//! The pushing tasks of a level: the pushes, the path that they open, and the sprites to visit afterwards.
 
 use super::plan::{furnishable, round};
 use crate::levels::palette::{Palette, Walk};
@@ -7,7 +7,7 @@ use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
 use engine::{Analysis, SpriteType};
 use itertools::Itertools;
 
-/// A task: push a sprite onto a partner.
+/// A task: to push a sprite onto a partner.
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
     pub(crate) pushed: SpriteType,
@@ -29,9 +29,9 @@ pub(crate) struct Jobs {
     pub(crate) jobs: Vec<Job>,
     /// `true` if the last job bridges the gap in front of the sprites to visit.
     pub(crate) bridge: bool,
-    /// The door opened by the last job; `None` if that job does not open a door.
+    /// The door that the last job opens; `None` if the last job does not open a door.
     pub(crate) door: Option<SpriteType>,
-    /// The gate in front of the sprites to visit; `None` if there is a bridge, a door or no gate.
+    /// The gate in front of the sprites to visit; `None` if a bridge or a door is in front of them, or nothing at all.
     pub(crate) gate: Option<SpriteType>,
     /// The number of visits to the gate's keys. These visits come first.
     pub(crate) keys: usize,
@@ -44,8 +44,8 @@ pub(crate) struct Jobs {
 }
 
 impl Jobs {
-    /// Draws a plan; `None` if no sprite in the game can be pushed onto another. `asked` contains the requested exact
-    /// numbers of some sprites.
+    /// Draws a plan; `None` if no sprite in the game can be pushed onto another one. `asked` contains the exact numbers
+    /// that are requested for some types.
     pub(crate) fn draw(
         analysis: &Analysis,
         palette: &Palette,
@@ -124,7 +124,7 @@ impl Jobs {
         sampler.shuffle(&mut self.jobs);
     }
 
-    /// Blocks the path with a door that is opened by pushing, or with a ditch that a pushed object fills.
+    /// Blocks the path with a door that a push opens, or with a ditch that a pushed object fills.
     fn bar(
         &mut self,
         analysis: &Analysis,
@@ -145,7 +145,7 @@ impl Jobs {
             .collect();
         if !switches.is_empty() {
             let (door, job) = sampler.choose(&switches);
-            // The opened thing may be the exit itself.
+            // The thing that the push opens may be the exit itself.
             self.door = Some(*door).filter(|door| !self.visits.contains(door));
             self.jobs.push((*job).clone());
         } else {
@@ -198,7 +198,7 @@ impl Jobs {
     }
 }
 
-/// Returns `true` if a lock opens when one object is pushed onto another.
+/// Returns `true` if pushing one object onto another opens the lock.
 fn is_pushed_open(lock: &Lock) -> bool {
     matches!(lock.key, Key::Switch(_, Some(_)))
 }

@@ -1,5 +1,5 @@
-//! Construction of levels. A layout provides walls, the roles of the sprite types guide the furnishing, and the result
-//! is inspected.
+//! Construction of levels. A layout provides the walls, the roles of the sprite types guide the furnishing, and the
+//! result is inspected.
 
 pub(crate) mod board;
 pub(crate) mod builder;

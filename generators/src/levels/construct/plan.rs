@@ -14,8 +14,8 @@ pub(crate) struct Wish {
     pub(crate) count: usize,
 }
 
-/// Returns the types with which to furnish a level, and their numbers, for a board with `area` open cells. Gates,
-/// keys, walls and soil are placed separately.
+/// Returns the types with which to furnish a board with `area` open cells, and the number of each. Gates, keys, walls
+/// and soil are placed separately.
 pub(crate) fn wishes(
     analysis: &Analysis,
     palette: &Palette,
@@ -39,7 +39,7 @@ pub(crate) fn wishes(
     wishes
 }
 
-/// Returns the types with which to furnish a level, and their numbers, following the examples.
+/// Returns the types with which to furnish a level, and the number of each, following the examples.
 pub(crate) fn wishes_like(
     analysis: &Analysis,
     palette: &Palette,
@@ -53,8 +53,7 @@ pub(crate) fn wishes_like(
         for stype in furnishable(analysis, palette, role) {
             let (drawn, [least, usual, most]) = target.counts[stype.index()];
             let wanted = analysis.aims().remove.contains(&stype);
-            // The numbers of harmful or required things increase with the difficulty, and the numbers of helpful
-            // things decrease with it.
+            // With increasing difficulty, there are more harmful or required things, and fewer helpful ones.
             let share = match role {
                 Role::Enemy | Role::Boulder | Role::Hazard => Some(difficulty),
                 Role::Spawner if analysis.makes_harm(stype) => Some(difficulty),
@@ -64,7 +63,8 @@ pub(crate) fn wishes_like(
             };
             let count = match share {
                 Some(share) => {
-                    // Half difficulty gives the median, because the examples may hold an extreme.
+                    // Difficulty 0.5 gives the median, because the minimum or maximum over the examples may be an
+                    // outlier.
                     let (from, to, share) = if share < 0.5 {
                         (least, usual, 2.0 * share)
                     } else {
@@ -78,7 +78,7 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role, count });
         }
     }
-    // These keys are placed in addition to the keys that locks need.
+    // These keys come in addition to those that locks need.
     for stype in furnishable(analysis, palette, Role::Key) {
         wishes.push(Wish { stype, role: Role::Key, count: target.counts[stype.index()].0 });
     }
@@ -120,7 +120,7 @@ const ROLES: [Role; 16] = [
     Role::Collectable,
 ];
 
-/// Returns the types with a role that are worth placing. Such types have a character, persist, and are not mere
+/// Returns the types with a role that are worth placing. Such types have a level character, persist, and are not mere
 /// projectiles.
 pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) -> Vec<SpriteType> {
     let types = analysis.game().sprite_types().filter(|&stype| {
@@ -141,7 +141,7 @@ pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) ->
     types.filter(|stype| !flies(stype)).collect()
 }
 
-/// Returns `true` if a type is floor that does not occur everywhere and takes part in an interaction.
+/// Returns `true` if a type is floor that occurs only in some cells and takes part in an interaction.
 fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -> bool {
     let takes_part = || {
         analysis.encounters().iter().any(|encounter| {
@@ -174,8 +174,8 @@ fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) ->
     }
 }
 
-/// Returns the minimum number of sprites for a role. If each type has its own meaning, the minimum is one sprite per
-/// type, unless there are too many types.
+/// Returns the minimum number of sprites for a role. If the types of the role differ in meaning, the minimum is one
+/// sprite per type, unless there are too many types.
 fn least(role: Role, types: usize) -> usize {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => types,
@@ -211,7 +211,7 @@ fn require(analysis: &Analysis, area: usize, wishes: &mut [Wish]) {
             let listed = wishes.iter().filter(|wish| requirement.types.contains(&wish.stype));
             listed.map(|wish| wish.count).sum()
         };
-        // Counts are limited by the capacity of the board.
+        // The capacity of the board limits the counts.
         while sum(wishes) < (requirement.at_least as usize).min(area) {
             let fewest = wishes.iter_mut().filter(|wish| requirement.types.contains(&wish.stype));
             let Some(wish) = fewest.min_by_key(|wish| wish.count) else { break };

@@ -1,4 +1,4 @@
-//! The row above a level with a fuse, along which a spark burns to a keg.
+//! The row with a fuse above a level. A spark burns along the fuse to a keg.
 
 /// The characters in a fuse's row.
 pub(crate) struct FuseSymbols {

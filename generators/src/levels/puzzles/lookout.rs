@@ -1,5 +1,5 @@
-//! A careful player among strays (sprites that wander at random). The player's win rate shows how often a level is won
-//! by looking frequently.
+//! A careful player among strays (sprites that wander at random). The player's win rate shows how often a player that
+//! looks at the board often enough can win a level.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::{Sampler, Seed};
@@ -8,14 +8,14 @@ use std::ops::RangeInclusive;
 
 /// The minimum number of ticks covered by a plan.
 const AHEAD: usize = 12;
-/// The number of spare ticks at which a state is worth half of its value with unlimited time.
+/// The number of spare ticks with which a state is worth half as much as with unlimited time.
 const HALF: f64 = 3.0;
-/// The number of ticks, after the player next looks, in which a collision counts in full. Later collisions can usually
-/// be dodged, so the fourth root of their avoidance probability is used.
+/// The number of ticks after the player's next look in which a collision counts in full. Later collisions can usually
+/// be dodged, so the fourth root of the probability of avoiding them is used.
 const BLIND: usize = 2;
-/// The approximate probability of surviving a tick beyond the plan.
+/// The approximate probability of surviving each tick beyond the plan.
 const SURVIVAL: f64 = 0.95;
-/// The survival probabilities for further episodes of a game, with a more and a less patient player.
+/// The survival probabilities per tick for further episodes of a game, played by a more and by a less patient player.
 const OTHERS: [f64; 2] = [0.98, 0.9];
 /// The value for states from which a win is impossible.
 const NEVER: u16 = u16::MAX;
@@ -40,7 +40,7 @@ pub(crate) trait Moves {
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)>;
 }
 
-/// The strays at the start of a level, and the floor on which they wander. Strays are stopped only by walls.
+/// The strays at the start of a level, and the floor on which they wander. Only walls stop strays.
 #[derive(Clone, Debug)]
 pub(crate) struct Strays {
     pub(crate) grid: Grid,
@@ -51,15 +51,15 @@ pub(crate) struct Strays {
 }
 
 impl Strays {
-    /// Returns `true` if the strays move in a tick. Unless they move in every tick, they rest in the first tick.
+    /// Returns `true` if the strays move in a tick. Strays that do not move in every tick rest in the first tick.
     fn move_in(&self, tick: usize) -> bool {
         (tick + 1).is_multiple_of(self.cooldown)
     }
 }
 
-/// A player that knows everything except the strays' future random moves. The player plans the path with the greatest
-/// probability of avoiding all strays, treating collisions in different ticks as independent and allowing for the
-/// remaining time. The resulting win rate is a lower bound on what looking can achieve, not the optimum.
+/// A player that knows everything except the strays' future random moves. It plans the path with the highest
+/// probability of avoiding all strays, taking the remaining time into account. Collisions in different ticks are
+/// treated as independent. The resulting win rate is a lower bound on the win rate of an optimal player.
 pub(crate) struct Lookout<M> {
     strays: Strays,
     moves: M,
@@ -67,7 +67,8 @@ pub(crate) struct Lookout<M> {
     steps: Vec<Vec<(usize, usize)>>,
     /// The number of ticks until the time runs out.
     ticks: usize,
-    /// For each tick and the state before that tick, the earliest tick of a win without strays, or [`NEVER`].
+    /// For each tick and each state before it, the earliest tick at which the player could win without strays, or
+    /// [`NEVER`].
     finish: Vec<u16>,
     /// The probability of surviving each number of ticks.
     survival: Vec<f64>,
@@ -102,9 +103,9 @@ impl<M: Moves> Lookout<M> {
         self.moves.cell(self.moves.start())
     }
 
-    /// Places strays in the first of the `cells`. Uses the largest number in the range for which, as for all smaller
-    /// numbers in the range, at least a fraction `share` of `plays` episodes is won when the player looks before every
-    /// tick. Returns the number, or `None` if even the smallest number is too large.
+    /// Places strays in the first of the `cells`. Uses the largest number in the range such that this number and all
+    /// smaller ones are fair. A number is fair if a player that looks before every tick wins at least a fraction
+    /// `share` of `plays` episodes. Returns the number, or `None` if even the smallest one is not fair.
     pub(crate) fn most_fair(
         &mut self,
         cells: &[usize],
@@ -123,14 +124,14 @@ impl<M: Moves> Lookout<M> {
         Some(number)
     }
 
-    /// Returns the fraction of `plays` episodes won by looking at the strays every `commit` ticks.
+    /// Returns the fraction of `plays` episodes that the player wins if it looks at the strays every `commit` ticks.
     pub(crate) fn rate(&self, commit: usize, plays: usize, sampler: &mut Sampler) -> f64 {
         let won = (0..plays).filter(|_| self.play(commit, sampler)).count();
         won as f64 / plays.max(1) as f64
     }
 
-    /// Returns `true` if at least a fraction `share` of `plays` episodes is won by looking before every tick. Stops as
-    /// soon as the result is certain.
+    /// Returns `true` if the player wins at least a fraction `share` of `plays` episodes when it looks before every
+    /// tick. Stops as soon as the result is certain.
     fn wins(&self, share: f64, plays: usize, sampler: &mut Sampler) -> bool {
         let needed = ((share * plays as f64).ceil() as usize).min(plays);
         let (mut won, mut lost) = (0, 0);
@@ -166,7 +167,8 @@ impl<M: Moves> Lookout<M> {
     }
 
     /// Plays the game, looking before every tick. Strays have the type `stray`. If the first episode is lost, retries
-    /// with a more and a less patient player. Returns a winning sequence of actions, or `None`.
+    /// with a more patient and a less patient player. Returns a winning sequence of actions; `None` if all episodes are
+    /// lost.
     pub(crate) fn win_game(
         &mut self,
         game: &Game,
@@ -194,7 +196,7 @@ impl<M: Moves> Lookout<M> {
         let grid = self.strays.grid;
         let mut state = game.start(level, seed);
         let block = state.block();
-        // There may be rows of other things above the grid.
+        // There may be rows above the grid that contain other things.
         let above = level.rows() - grid.rows;
         let cell = |(x, y): (i32, i32)| grid.at((x / block) as usize, (y / block) as usize - above);
         let mut place = self.moves.start();
@@ -220,7 +222,7 @@ impl<M: Moves> Lookout<M> {
         let last = (tick + commit.max(AHEAD)).min(self.ticks);
         let clear = self.clear(tick, last, strays);
         let states = self.moves.states();
-        // For each tick, the states, each with its possible steps as indices into the next layer.
+        // For each tick, the possible states. Each state has its possible steps, as indices into the next layer.
         let mut layers: Vec<Vec<(usize, Vec<usize>)>> = vec![vec![(state, Vec::new())]];
         let mut places = vec![usize::MAX; states];
         for now in tick..last {
@@ -240,7 +242,7 @@ impl<M: Moves> Lookout<M> {
             }
             layers.push(next_layer);
         }
-        // From the last tick back, the value of each state, and the best step from it.
+        // The value of each state and the best step from it, computed from the last tick back.
         let mut worth: Vec<Vec<(f64, usize)>> = vec![Vec::new(); layers.len()];
         for (depth, layer) in layers.iter().enumerate().rev() {
             let now = tick + depth;

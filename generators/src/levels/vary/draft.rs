@@ -1,4 +1,4 @@
-//! A level being edited: its characters, their uses, and the problems that an edit may have caused.
+//! A level being edited, with its characters, their uses, and the problems that an edit may have caused.
 
 use crate::Generator;
 use crate::levels::config::LevelConfig;
@@ -11,11 +11,11 @@ use engine::analysis::{Harm, Reason, Role, Steering};
 use engine::{Level, SpriteType};
 use std::collections::VecDeque;
 
-/// The number of sample levels from which the normal counts are derived.
+/// The number of sample levels from which the normal numbers of characters are derived.
 const SAMPLES: u64 = 16;
 /// The minimum distance in cells between harmful sprites and the avatar's start.
 const MIN_DISTANCE: usize = 3;
-/// The size, in cells, below which an unreachable empty region becomes wall.
+/// The size, in cells, below which an unreachable empty region is filled with walls.
 const POCKET: usize = 4;
 
 /// A level character's use.
@@ -27,16 +27,16 @@ pub(crate) enum SymbolUse {
     Wall,
     /// A character that places the avatar.
     Avatar,
-    /// Any other sprite, with its first role.
+    /// A character that places any other sprite, with the first of its roles.
     Thing(Role),
 }
 
-/// The uses of a game's characters, and their numbers in levels.
+/// The uses of a game's characters, and the numbers in which they occur in levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Vocabulary {
     /// Each character's use.
     kinds: Vec<SymbolUse>,
-    /// For each character, `true` if it is harmful or creates harmful sprites.
+    /// For each character, `true` if its sprites are harmful or create harmful sprites.
     harmful: Vec<bool>,
     /// The minimum and maximum number of each character. The two are equal if all sample levels agree.
     bounds: Vec<(usize, usize)>,
@@ -127,14 +127,14 @@ impl Vocabulary {
     }
 }
 
-/// A level's problems, as numbers. For each problem, 0 is the best value.
+/// The problems of a level, as numbers. For each of them, 0 is the best value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Faults {
-    /// The number of sprites by which the level misses the game's requirements or the normal numbers.
+    /// The number of sprites by which the level deviates from the game's requirements or from the normal numbers.
     pub(crate) count_deviation: usize,
     /// The number of open cells that cannot be reached through open cells.
     pub(crate) stranded: usize,
-    /// The total amount by which harmful sprites are too close to the avatar.
+    /// The total number of cells by which harmful sprites are too close to the avatar.
     pub(crate) crowded: usize,
     /// The number of isolated wall blocks, gates in the open, and sprites in unusual positions.
     pub(crate) misplaced: usize,
@@ -143,7 +143,7 @@ pub(crate) struct Faults {
 }
 
 impl Faults {
-    /// Returns `true` if no problem is worse than in `other`.
+    /// Returns `true` if every problem is at most as bad as in `other`.
     pub(crate) fn no_worse_than(&self, other: &Faults) -> bool {
         self.count_deviation <= other.count_deviation
             && self.stranded <= other.stranded
@@ -298,7 +298,7 @@ impl<'v> Draft<'v> {
         lacking.sum()
     }
 
-    /// Returns the open cells unreachable for the avatar.
+    /// Returns the open cells that the avatar cannot reach.
     fn stranded(&self) -> Vec<usize> {
         let Some(avatar) = self.avatar() else { return Vec::new() };
         let steps = self.grid.flood(&[avatar], |cell| !self.is_wall(cell));
@@ -354,7 +354,7 @@ impl<'v> Draft<'v> {
         in_band && (!gate || self.is_between(cell))
     }
 
-    /// Returns `true` if the cell is ground on which a character belongs.
+    /// Returns `true` if the cell is ground in which a character may be placed.
     pub(crate) fn suits(&self, symbol: u8, cell: usize) -> bool {
         self.is_ground(cell) && self.is_in_place(symbol, cell)
     }
@@ -403,7 +403,7 @@ impl<'v> Draft<'v> {
         (opened[to] != FAR).then_some(())
     }
 
-    /// Adds and removes sprites until their numbers are normal, as far as there is room.
+    /// Adds or removes sprites until their numbers are normal, as far as there is room.
     pub(crate) fn recount(&mut self, sampler: &mut Sampler) {
         for symbol in self.vocabulary.things() {
             let (low, high) = self.vocabulary.bounds(symbol);

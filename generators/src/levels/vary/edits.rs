@@ -1,4 +1,4 @@
-//! Small, meaningful changes to a level, similar to a designer's next changes.
+//! Small, meaningful changes to a level, such as a designer would make next.
 
 use super::draft::{Draft, SymbolUse};
 use crate::levels::construct::layout;
@@ -11,7 +11,7 @@ use engine::analysis::{Motion, Role, Steering};
 const NEAR: usize = 2;
 /// The maximum number of wall cells that move together.
 const SEGMENT: usize = 6;
-/// The minimum side length of a part to redraw.
+/// The minimum side length of a part of the level that is redrawn.
 const PART: usize = 4;
 
 /// A kind of change.
@@ -39,9 +39,9 @@ pub(crate) enum Edit {
     Close,
     /// Moves a line of walls sideways.
     Shift,
-    /// Copies one half's walls to the other half.
+    /// Copies the walls of one half to the other half.
     Mirror,
-    /// Redraws the walls in a part of the level, leaving the part's sprites in place.
+    /// Redraws the walls in a part of the level and leaves its sprites in place.
     Regrow,
 }
 
@@ -94,7 +94,7 @@ impl Edit {
 
 impl Draft<'_> {
     /// Applies a change of the given kind. Returns `None` if there is nothing to change, or if the drawn change does
-    /// not work. The draft must then be discarded.
+    /// not work. In that case, the draft must be discarded.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::Nudge => self.nudge(sampler),
@@ -131,7 +131,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the direction of a sprite that moves straight ahead, and therefore the sprite's line.
+    /// Returns the direction in which a sprite moves straight ahead; `None` for other sprites. The direction determines
+    /// the sprite's line.
     fn line_of_motion(&self, cell: usize) -> Option<(i32, i32)> {
         let analysis = &self.levels.analysis;
         self.levels.game.places(self.cells[cell]).iter().find_map(|&stype| {
@@ -151,8 +152,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the cells of other sprites with the same character, if the character provides shelter or is breakable.
-    /// Such sprites lie together.
+    /// Returns the cells of other sprites with the same character, if they provide shelter or are breakable. Such
+    /// sprites form clusters.
     fn cluster(&self, thing: usize) -> Vec<usize> {
         let symbol = self.cells[thing];
         let lies = matches!(
@@ -162,7 +163,7 @@ impl Draft<'_> {
         self.cells_where(|draft, cell| lies && cell != thing && draft.cells[cell] == symbol)
     }
 
-    /// Returns `true` if a cell is next to a member of the cluster, or if the cluster is empty.
+    /// Returns `true` if a cell is next to a cell of the cluster, or if the cluster is empty.
     fn joins(&self, cluster: &[usize], cell: usize) -> bool {
         cluster.is_empty() || cluster.iter().any(|&other| self.grid.manhattan(other, cell) == 1)
     }
@@ -182,7 +183,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Places one more sprite with a character on the ground, near sprites with the same character or anywhere.
+    /// Places one more sprite with the given character on the ground, either near sprites with the same character or
+    /// anywhere.
     fn put(&mut self, symbol: u8, sampler: &mut Sampler) -> Option<()> {
         let like: Vec<usize> = self.cells_where(|draft, cell| draft.cells[cell] == symbol);
         let near = sampler.ratio(1, 2) && !like.is_empty();
@@ -215,7 +217,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Returns the characters of targets that fill up when a sprite with the given character is pushed onto them.
+    /// Returns the characters of the targets that a sprite with the given character fills when it is pushed onto them.
     fn partners(&self, symbol: u8) -> Vec<u8> {
         let (levels, mut partners) = (self.levels, Vec::new());
         for pushable in levels.analysis.pushables() {
@@ -260,7 +262,7 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Turns a cell accepted by `wanted` from wall into ground, or vice versa. If the walls are symmetric, also turns
+    /// Changes a cell accepted by `wanted` from wall to ground, or vice versa. If the walls are symmetric, also changes
     /// the cell's mirror image.
     fn toggle(&mut self, sampler: &mut Sampler, wanted: impl Fn(&Self, usize) -> bool) -> Option<()> {
         let wall = self.levels.palette.wall?;
@@ -297,12 +299,12 @@ impl Draft<'_> {
         Symmetry::ALL.into_iter().find(holds).filter(|_| inner >= 4)
     }
 
-    /// Returns `true` if a cell is ground ahead of a line's end, with free cells at its sides.
+    /// Returns `true` if a cell is ground ahead of the end of a line, with free cells at its sides.
     fn extends(&self, cell: usize) -> bool {
         self.is_ground(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() == 1
     }
 
-    /// Returns `true` if a cell is a line's end or an isolated block.
+    /// Returns `true` if a cell is the end of a line or an isolated block.
     fn is_end(&self, cell: usize) -> bool {
         self.is_wall(cell) && self.walls_beside(cell).iter().filter(|&&wall| wall).count() <= 1
     }
@@ -312,7 +314,7 @@ impl Draft<'_> {
         let symmetry = self.symmetry();
         let cell = pick(&self.cells_where(Draft::is_wall), sampler)?;
         let (dx, dy) = *sampler.choose(&WAYS);
-        // Collect the line in both directions from the cell. The line then moves sideways.
+        // Collect the line in both directions from the cell, and then move it sideways.
         let mut line = vec![cell];
         for along in [(dy, dx), (-dy, -dx)] {
             let mut next = self.grid.shift(cell, along);

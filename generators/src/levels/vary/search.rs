@@ -1,4 +1,4 @@
-//! The choice of a variation for a game's levels: puzzles if the game is a puzzle game, small edits otherwise.
+//! The choice of a variation for a game's levels: puzzles for puzzle games, and small edits for all other games.
 
 use super::variation::LevelVariation;
 use crate::levels::config::LevelConfig;
@@ -10,10 +10,10 @@ use engine::{Game, Level};
 
 /// The level variation suitable for a game.
 pub enum LevelSearch<'a> {
-    /// The variation for games won by pushing alone. Varies floor plans, and searches each plan backwards for its
-    /// farthest position.
+    /// The variation for games that are won by pushing alone. It varies floor plans, and searches each of them
+    /// backwards for the farthest position.
     Puzzles(PuzzleVariation<'a>),
-    /// The variation for all other games. Edits levels.
+    /// The variation for all other games. It edits levels.
     Edits(LevelVariation<'a>),
 }
 

@@ -8,19 +8,19 @@ use crate::{GenerateError, Generator, Variation};
 use base::{Sampler, Seed};
 use engine::{Game, Level};
 
-/// The number of attempts at an edit before a different kind is tried.
+/// The number of attempts at an edit before a different kind of edit is tried.
 const REDRAWS: usize = 24;
 /// The number of mutations or crossovers to try before returning a candidate unchanged.
 const ATTEMPTS: usize = 12;
 
 /// Levels for any game, as search candidates. [`ConstructiveLevels`] generates the levels, which are then changed by
-/// edits that are meaningful in the game. Sprites move, or are added or removed by role. Lines of walls grow, shrink,
-/// open and shift.
+/// edits that are meaningful in the game. Edits move sprites, or add and remove them by role. They also extend,
+/// shorten, open and shift lines of walls.
 ///
-/// All results are levels with one avatar, with the parent's size and closed border, and without a termination that
-/// holds at the start. No problem is worse than in the parents: required sprites are present, and numbers and cover are
-/// as requested and normal. No cell is cut off, no harmful sprite is next to the avatar, no gate is in the open, and no
-/// wall block is isolated. Symmetric walls mostly stay symmetric. This type does not judge whether a level can be won.
+/// All results are levels with one avatar and with the parent's size and closed border. No termination holds at the
+/// start. No problem is worse than in the parents: required sprites are present, and numbers and cover are as requested
+/// and normal. No cell is cut off, no harmful sprite is next to the avatar, no gate is in the open, and no wall block
+/// is isolated. Symmetric walls mostly stay symmetric. The variation does not test whether a level can be won.
 ///
 /// Cost: tens of microseconds per mutation of a typical level.
 pub struct LevelVariation<'a> {
@@ -38,7 +38,7 @@ impl<'a> LevelVariation<'a> {
         Ok(LevelVariation { vocabulary: Vocabulary::of(&levels, &config), levels })
     }
 
-    /// Returns the constructive generator for a search's initial levels.
+    /// Returns the constructive generator, which provides a search's initial levels.
     pub fn constructive(&self) -> &ConstructiveLevels<'a> {
         &self.levels
     }
@@ -47,7 +47,8 @@ impl<'a> LevelVariation<'a> {
         Draft::of(&self.levels, &self.vocabulary, level)
     }
 
-    /// Returns a draft with one more edit; `None` if several edits of one kind all cause problems or change nothing.
+    /// Returns a draft with one more edit; `None` if all attempts at edits of one kind cause problems or change
+    /// nothing.
     fn edited<'v>(&self, draft: &Draft<'v>, allowed: &Faults, sampler: &mut Sampler) -> Option<Draft<'v>> {
         let edit = Edit::draw(sampler);
         (0..REDRAWS).find_map(|_| {
@@ -131,8 +132,8 @@ impl Variation for LevelVariation<'_> {
     }
 }
 
-/// Draws a section of a side: a half, the whole side, or a third to two thirds at any position. Returns the start and
-/// the end.
+/// Draws a section of a side: a half, the whole side, or a third to two thirds of it at any position. Returns the start
+/// and the end.
 fn stretch(length: usize, sampler: &mut Sampler) -> (usize, usize) {
     match sampler.below(4) {
         0 => (0, length / 2),

@@ -28,8 +28,7 @@ base::named_enum! {
     }
 }
 
-/// The portfolio's planners that play. Each plays in open loop, that is, without observing the game during a
-/// plan.
+/// The planners of the portfolio that play. Each plays in open loop, that is, without observing the game during a plan.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(200);
@@ -38,8 +37,8 @@ const CALLS: u64 = 100_000;
 
 impl Commitment {
     /// Runs every planner once for each commitment, from shortest to longest, until none of them wins. On a
-    /// deterministic level, observing again does not change a plan, so a single round of episodes is enough.
-    /// Cost: at most 2.1 million forward-model calls.
+    /// deterministic level, another observation does not change a plan, so a single round of episodes is enough. Cost:
+    /// at most 2.1 million forward-model calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Commitment {
         let game = analysis.game();
         let is_certain = analysis.is_deterministic_from(&game.start(level, seed));

@@ -7,7 +7,7 @@ use engine::{Analysis, Episode, Level, Outcome, State};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// The states one or two actions off a win, counted by the result of a bounded search from each.
+/// The states that are one or two actions off a win, counted by the result of a bounded search from each state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeadEnds {
@@ -25,9 +25,9 @@ const TICKS: usize = 40;
 const CALLS: u64 = 3000;
 
 impl DeadEnds {
-    /// Departs from the win at up to [`TICKS`] of its ticks, by each other action and then a random action.
-    /// States in the win itself do not count. Returns `None` if the level is stochastic. Cost: up to 320
-    /// searches of [`CALLS`] calls.
+    /// Departs from the win at up to [`TICKS`] of its ticks, with each action that the win does not take there and then
+    /// with a random action. States that are part of the win do not count. Returns `None` if the level is stochastic.
+    /// Cost: up to 320 searches of [`CALLS`] calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Option<DeadEnds> {
         let game = analysis.game();
         let start = game.start(level, win.seed);

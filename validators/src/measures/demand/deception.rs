@@ -1,4 +1,4 @@
-//! Players that go for nearby goals, and how far these goals lead them away from the win.
+//! Players that go for nearby goals, and the distance by which these goals lead them away from the win.
 
 use super::patience;
 use super::route::{Route, avatar_cell};
@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Deception {
-    /// The number of episodes by both players.
+    /// The total number of episodes of both players.
     pub plays: u64,
     /// The number of episodes not won within twice the known win's ticks plus twenty.
     pub lost: u64,
-    /// The avatar's maximum distance from the win's route, in cells, averaged over the episodes.
+    /// The avatar's maximum distance from the route of the win, in cells, averaged over the episodes.
     pub astray: f64,
 }
 
@@ -23,7 +23,7 @@ pub struct Deception {
 const PLAYS: u64 = 4;
 
 impl Deception {
-    /// Plays the episodes. Cost: the number of ticks in eight episodes times the number of actions.
+    /// Plays the episodes. Cost in calls: the number of ticks in eight episodes times the number of actions.
     pub(super) fn of(
         analysis: &Analysis,
         level: &Level,

@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 pub struct Demand {
     /// The number of ticks in the win.
     pub ticks: usize,
-    /// The number of ticks in the win in which a key is pressed, that is, with an action other than nil.
+    /// The number of ticks in the win in which a key is pressed, that is, whose action is not nil.
     pub decisions: usize,
     /// The number of pushes in the win that move or remove a sprite.
     pub pushes: usize,
@@ -117,8 +117,8 @@ mod tests {
 
     #[test]
     fn pushes_that_cannot_be_undone_are_dead_ends() {
-        // The way to the winning push is to the left of the avatar. A push to the right or downwards ends at
-        // the wall.
+        // The path to the winning push starts to the left of the avatar. A push to the right or downwards ends at the
+        // wall.
         let demand = check("wwwwwww\nw     w\nw oc  w\nw  A  w\nwwwwwww\n");
         let found = demand.dead_ends.unwrap();
         assert!(found.dead > 0 && found.won > 0 && found.states >= found.dead + found.won, "{found:?}");

@@ -1,4 +1,4 @@
-//! A win's route, and the sprites that come next to it.
+//! The route of a win, and the sprites that come next to it.
 
 use engine::analysis::{Motion, Role};
 use engine::{Analysis, Episode, Level, SpriteType, State};

@@ -10,8 +10,7 @@ const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 const PLAYS: u64 = 6;
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(2000);
-/// The minimum length, in ticks, of a known win for which a shorter win might put the level in a different
-/// tier.
+/// The minimum length, in ticks, of a known win at which a shorter win might put the level in a different tier.
 const LEAST: usize = 20;
 
 /// Searches for a win with fewer ticks than a known win in a stochastic game. In such a game, no search can prove
@@ -51,7 +50,7 @@ mod tests {
     use base::Seed;
     use engine::{Action, Game};
 
-    /// Searches for a shorter win on a path of three steps. Wasps, if any, turn at random.
+    /// Searches for a shorter win on a level with a path of three steps. Wasps, if there are any, turn at random.
     fn shorter(level: &str) -> Option<Episode> {
         let game = Game::from_source(
             "BasicGame
@@ -96,7 +95,7 @@ mod tests {
         assert_eq!((episode.outcome, episode.actions.len()), (Outcome::Won, 3));
     }
 
-    /// Checks that nothing is played on deterministic levels, on which a systematic search performs better.
+    /// Checks that no episodes are played on deterministic levels, on which a systematic search performs better.
     #[test]
     fn without_chance_nothing_is_played() {
         assert!(shorter("wwwwww\nwA..ow\nwwwwww\n").is_none());

@@ -38,7 +38,7 @@ impl<'a> Measured<'a> {
 pub struct GameEntry {
     /// The title in the game's theme.
     pub title: String,
-    /// The way to win, as explained to players.
+    /// The way to win, explained to players.
     pub goal: String,
     /// The digest of the game's rules.
     pub rules: Digest,
@@ -48,9 +48,9 @@ pub struct GameEntry {
     pub obstacle: Option<Criterion>,
     /// The kind of game.
     pub kind: GameKind,
-    /// The findings from playing the game, as used for comparisons with other games.
+    /// The findings about the game's play, as used for comparisons with other games.
     pub found: GameRow,
-    /// The advantage in win rate of the strongest held-out player over the players that do not look ahead.
+    /// The advantage in win rate of the strongest held-out player over the best player that does not look ahead.
     pub held_out: Option<Edge>,
     /// The game's levels.
     pub levels: Vec<LevelEntry>,

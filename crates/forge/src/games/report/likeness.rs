@@ -1,4 +1,4 @@
-//! The rule distances between games, within the set and to the corpus.
+//! The distances between games' rules, within the set and to the corpus.
 
 use super::entry::{Measured, Nearest};
 use base::Digest;

@@ -1,4 +1,4 @@
-//! The report on a set of games, individually and as a whole. The report has the same form for every generator.
+//! The report on a set of games, covering each game and the set as a whole. It has the same form for every generator.
 //!
 //! The report is a pure function of the games and their verdicts, so the same input produces the same bytes. The
 //! report contains no times or paths. For the meaning of each figure, see `docs/reference/game-report.md`.
@@ -30,11 +30,12 @@ pub struct GamesSample<'a> {
     pub method: &'a str,
     /// The games, in the order of generation.
     pub games: &'a [SurveyedGame],
-    /// The named games from which the set should differ; may be empty.
+    /// The named games from which the games in the set should differ; may be empty.
     pub corpus: &'a [(String, Game)],
     /// The criteria that the panel applied.
     pub criteria: &'a Criteria,
-    /// The cost of generating the games, excluding the judging for the report; `None` if no generator made the games.
+    /// The cost of generating the games, without the cost of judging them for the report; `None` if the games do not
+    /// come from a generator.
     pub cost: Option<&'a Tally>,
     /// The seed for the measures.
     pub seed: Seed,

@@ -1,4 +1,4 @@
-//! The judges' verdicts and episodes for a set of games.
+//! The verdicts on a set of games, and the episodes played on them.
 
 use super::entry::Measured;
 use crate::reported::{LABELS, PlayerRate, obstacles, rank};

@@ -1,4 +1,4 @@
-//! Tests with a small set that contains one game in two themes.
+//! Tests with a small set in which one game occurs in two themes.
 
 use super::*;
 use engine::Level;
@@ -6,8 +6,8 @@ use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 use validators::{Criterion, CriterionSet, Difficulty, Effort, Judging, Panel};
 
-/// Returns a game in which the player collects all objects of one kind. Games with different names for the same
-/// rules count as the same game.
+/// Returns a game in which the player collects all objects of one kind. Two such games with different names but the
+/// same rules count as the same game.
 fn source(thing: &str, danger: &str) -> String {
     format!(
         "BasicGame\n  SpriteSet\n    {thing} > Immovable\n    {danger} > RandomNPC cooldown=2\n    avatar > MovingAvatar\n  LevelMapping\n    g > {thing}\n    r > {danger}\n  InteractionSet\n    avatar wall > stepBack\n    {danger} wall > stepBack\n    avatar {danger} > killSprite\n    {thing} avatar > killSprite scoreChange=1\n  TerminationSet\n    SpriteCounter stype={thing} win=True\n    SpriteCounter stype=avatar win=False\n    Timeout limit=50 win=False\n"
@@ -75,7 +75,7 @@ fn a_set_is_told_by_its_games() {
     let json = read(&report);
     let counts = |share: &Json| [&share["count"], &share["of"]].map(|count| count.as_u64().unwrap());
     assert_eq!((&json["count"], counts(&json["accepted"])), (&json!(3), [3, 6]));
-    // Two games have the same rules in different words. A game of the corpus has these rules as well.
+    // Two games have the same rules under different names. A corpus game has these rules as well.
     for key in ["unique", "near_duplicates", "near_corpus"] {
         assert_eq!(counts(&json["novelty"][key]), [2, 3], "{key}");
     }

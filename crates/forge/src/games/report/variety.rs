@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GoalKind};
 
-/// The games of one kind, given by the avatar's abilities and the winning goal.
+/// The games of one kind. A kind combines the avatar's abilities with the goal to win.
 #[derive(Serialize)]
 struct Pair {
     avatar: AvatarKind,

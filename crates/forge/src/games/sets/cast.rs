@@ -1,4 +1,4 @@
-//! The casts of games. A game's cast is the names of its types.
+//! The casts of games. A cast consists of the names of a game's types.
 
 use engine::Game;
 use std::collections::BTreeSet;
@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 /// The maximum fraction of names that two games may share.
 const SHARED: f64 = 0.5;
 
-/// The names to ignore because many games use them.
+/// The names that are ignored because many games use them.
 const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 
 /// The names of a game's types, except common names.
@@ -20,7 +20,7 @@ impl Cast {
         Cast(names.filter(|name| !COMMON.contains(&name.as_str())).collect())
     }
 
-    /// Returns `true` if most names of the smaller cast occur in the other cast too.
+    /// Returns `true` if most names of the smaller cast also occur in the other cast.
     pub fn is_shared(&self, other: &Cast) -> bool {
         let shared = self.0.intersection(&other.0).count() as f64;
         shared > SHARED * self.0.len().min(other.0.len()) as f64

@@ -9,7 +9,7 @@ use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
-/// The games of a set so far. No two games are near each other, or share a title, a cast or an idea.
+/// The games of a set so far. No two games have similar rules or share a title, a cast or an idea.
 #[derive(Default)]
 pub(crate) struct Company {
     forms: Vec<GameForm>,
@@ -28,7 +28,7 @@ pub(crate) struct Company {
 pub(crate) struct Families(BTreeMap<String, usize>);
 
 impl Families {
-    /// Returns the number of games from a kernel and from kernels that hardly differ from it.
+    /// Returns the number of games from a kernel or from any kernel that hardly differs from it.
     pub(crate) fn games_of(&self, kernel: &str) -> usize {
         self.0.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
     }
@@ -40,7 +40,7 @@ impl Families {
 }
 
 impl Company {
-    /// Returns the reason why a game cannot be admitted, regardless of its levels.
+    /// Returns the reason why a game must be rejected whatever its levels, if there is one.
     pub(crate) fn objection(&self, candidate: &Candidate) -> Option<&'static str> {
         self.objection_to(&candidate.game, &candidate.title)
     }

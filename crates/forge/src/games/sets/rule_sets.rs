@@ -13,7 +13,7 @@ use validators::novelty::GameForm;
 /// The number of parameter draws for each form of a kernel, with and without its variants.
 const DRAWS: u64 = 10;
 
-/// The number of draws of different parameters for a game from a set.
+/// The number of attempts to draw new parameters for a game from a set.
 const REDRAWS: u64 = 4;
 
 /// The number of positions that have spare sets. Small releases contain at most this number of games.
@@ -23,11 +23,12 @@ const SMALL: usize = 16;
 /// which few other positions reach.
 const SPARE: usize = 3;
 
-/// The number of noun draws for a set in each scene.
+/// The number of times that nouns are drawn for a set in each scene.
 const NAMINGS: u64 = 6;
 
-/// A set of rules: a kernel in one of its forms, with variants and parameters, named with a scene's nouns. Levels are
-/// not fixed. Parameters may still change, as long as the game does not come near another set.
+/// A set of rules: a kernel in one of its forms, with variants and parameters, named with the nouns of a scene. A set
+/// does not fix the levels. Its parameters may still change, as long as the game does not become similar to another
+/// set.
 #[derive(Clone, Debug)]
 pub(crate) struct RuleSet {
     genome: KernelGenome,
@@ -84,8 +85,8 @@ impl OfKernel<'_> {
 }
 
 impl Draws {
-    /// Returns a kernel's seed, and one game for each of the kernel's forms, in the order in which the forms
-    /// are made into sets.
+    /// Returns a kernel's seed, and one game for each of its forms, in the order in which the forms are turned into
+    /// sets.
     fn of_kernel(&self, kernel: &str) -> (Seed, Vec<KernelGenome>) {
         let seed = self.seed.child("kernel", 0).child(kernel, 0);
         let mut all = KernelGenome::all_of(kernel);
@@ -123,8 +124,8 @@ impl Draws {
         sets.sets
     }
 
-    /// Returns the sets under their own names. No two sets share a title or most of a cast, and scenes take turns. Sets
-    /// for which no names are left are dropped.
+    /// Returns the sets with their own names. No two sets share a title or most of a cast, and the scenes take turns.
+    /// Sets for which no names are left are dropped.
     fn named(&self, sets: Vec<RuleSet>) -> Vec<RuleSet> {
         let seed = self.seed.child("names", 0).child("sets", 0);
         let mut given = Given::default();
@@ -146,9 +147,9 @@ impl RuleSets {
         RuleSets { draws, kernels, opening, all: OnceLock::new() }
     }
 
-    /// Returns the number of sets of the given kinds that a mint can rely on with any seed. Counts the sets from one
-    /// parameter draw that are not near a `known` game or a game from an `earlier` release. Costs about a millisecond
-    /// per kernel form.
+    /// Returns the number of sets of the given kinds that minting can rely on, whatever the seed. Counts the sets from
+    /// one parameter draw that are not near a `known` game or a game from an `earlier` release. Costs about a
+    /// millisecond per kernel form.
     pub fn supply(kinds: &[Kind], known: &[GameForm], earlier: &[GameForm]) -> usize {
         let draws = Draws { seed: Seed::from_text("supply"), known: known.to_vec() };
         let of_kernel = |(kernel, _)| {
@@ -174,7 +175,7 @@ impl RuleSets {
         sets.get_or_init(|| self.draws.all(kernel))
     }
 
-    /// Returns the set for a turn at a position; `None` if no set is left.
+    /// Returns the set to use at a position in a given turn; `None` if no set is left.
     pub(crate) fn of_place(&self, place: u32, turn: u32) -> Option<&RuleSet> {
         let (place, turn) = (place as usize, turn as usize);
         if let (0, Some(set)) = (turn, self.opening.get(place)) {
@@ -189,7 +190,8 @@ impl RuleSets {
         sets.get(at)
     }
 
-    /// Draws a game from a set, with different parameters unless they bring the game near another set.
+    /// Draws a game from a set. Its parameters differ from the set's, unless every draw of new parameters brings the
+    /// game near another set.
     pub(crate) fn draw_of(&self, set: &RuleSet, seed: Seed) -> KernelGenome {
         let mut drawn = (0..REDRAWS).map(|draw| set.genome.redrawn(seed.child("numbers", draw)));
         drawn.find(|genome| self.is_of(genome, set)).unwrap_or_else(|| set.genome.clone())
@@ -211,7 +213,7 @@ struct Given {
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
     scenes: BTreeMap<&'static str, usize>,
-    /// The used pairs of kernel and scene.
+    /// The pairs of kernel and scene that are already in use.
     of_kernels: BTreeSet<(String, &'static str)>,
 }
 
@@ -322,7 +324,7 @@ mod tests {
         assert!(none.of_place(0, 0).is_none() && none.of_place(0, 1).is_none());
     }
 
-    /// A commitment cannot be changed, so no seed may yield fewer sets than recipes can rely on.
+    /// A commitment cannot be changed later, so no seed may yield fewer sets than recipes can rely on.
     #[test]
     fn every_seed_has_the_sets_that_a_recipe_counts_on() {
         let kinds = [Kind::Lure, Kind::Demolition];
@@ -331,7 +333,7 @@ mod tests {
             let there = RuleSets::draw(&kinds, &[], Seed::from_text(seed)).all().len();
             assert!((1..=there).contains(&supply), "{seed}: {supply} of {there}");
         }
-        // Sets that earlier releases have used are no longer available.
+        // Sets used by earlier releases are no longer available.
         let used: Vec<GameForm> = SETS.all().iter().take(2).map(|set| set.form.clone()).collect();
         let left = RuleSets::supply(&kinds, &[], &used);
         assert!(left < supply, "{left} {supply}");

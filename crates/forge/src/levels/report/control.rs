@@ -6,7 +6,8 @@ use report::{Section, Share, Table, TableCell, Value};
 use serde::Serialize;
 use validators::Difficulty;
 
-/// The minimum fraction of a label in an unconstrained pool at which the game counts as able to express the label.
+/// The minimum fraction of levels with a label in an unconstrained pool. Below it, the game counts as unable to express
+/// the label.
 const EXPRESSIBLE: f64 = 0.05;
 
 /// The index of the requested label and the index of the measured label.
@@ -19,14 +20,14 @@ struct Hits {
     exact: Share,
     /// The fraction of levels with the requested or a neighbouring label.
     within_one: Share,
-    /// The expected fraction if each level were picked from the pool at random; `None` without a pool.
+    /// The expected value of `exact` if each level were picked from the pool at random; `None` without a pool.
     random_exact: Option<f64>,
-    /// The same expected fraction, for the requested or a neighbouring label.
+    /// The expected value of `within_one` for such random picks.
     random_within_one: Option<f64>,
 }
 
 /// Compares the requested and the measured difficulty, as a section and as a table; `None` if no difficulty was
-/// requested, or if no ladder played. Levels that could not be measured, for lack of a win, count as misses.
+/// requested, or if no ladder played. Levels that could not be measured because no win is known count as misses.
 pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(Section, Table)> {
     let asked = |level: &SurveyedLevel| Some((rank(level.asked?), level.label().map(rank)));
     let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();
@@ -79,7 +80,7 @@ fn note(pool: &[Difficulty], expressible: &[Difficulty]) -> String {
     )
 }
 
-/// Returns a table with one row per requested label, which counts the levels by measured label.
+/// Returns a table that counts the levels by measured label, with one row per requested label.
 fn confusion(table: &[Vec<u64>], unmeasured: &[u64], pool: &[u64]) -> Table {
     let note = "One row for each requested label, with the number of its levels that were measured to have \
                 each label.";
@@ -121,7 +122,7 @@ impl Hits {
         Hits { exact, within_one, random_exact, random_within_one }
     }
 
-    /// Adds the hits to a section. `key` identifies the fraction of exact hits in the page header.
+    /// Adds the figures to a section. `key` identifies the fraction of exact hits in the page header.
     fn add(&self, section: Section, key: &'static str, which: &str) -> Section {
         let random = |section: Section, value: Option<f64>| match value {
             Some(value) => section.shown("— picked at random", Value::Expected(value)),

@@ -1,4 +1,4 @@
-//! The report on a set of levels, individually and as a whole. The report has the same form for every generator.
+//! The report on a set of levels, covering each level and the set as a whole. It has the same form for every generator.
 //!
 //! The report is a pure function of the levels and their verdicts, so the same input produces the same bytes. The
 //! report contains no times or paths. For the meaning of each figure, with its formula and source, see
@@ -37,9 +37,10 @@ pub struct Sample<'a> {
     pub levels: &'a [SurveyedLevel],
     /// The game's own levels, for comparison; empty if the game has no levels of its own.
     pub examples: &'a [SurveyedLevel],
-    /// The labels of levels generated without a requested difficulty. The labels represent picking levels at random.
+    /// The labels of levels generated without a requested difficulty. They serve as the baseline of picking levels at
+    /// random.
     pub pool: &'a [Difficulty],
-    /// The cost of generating the levels, excluding the judging for the report.
+    /// The cost of generating the levels, without the cost of judging them for the report.
     pub cost: &'a Tally,
 }
 

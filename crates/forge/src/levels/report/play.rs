@@ -1,4 +1,4 @@
-//! The judges' verdicts and episodes for a set of levels.
+//! The verdicts on a set of levels, and the episodes played on them.
 
 use crate::reported::{PlayerRate, in_order, obstacles};
 use crate::survey::{FOR_NOTHING, SurveyedLevel};
@@ -15,9 +15,9 @@ const LEVEL: &str = "level";
 pub struct Fit {
     /// `columns`, `rows`, or a measure of the layout.
     pub measure: String,
-    /// The minimum and maximum of the game's own levels.
+    /// The minimum and maximum over the game's own levels.
     pub examples: [f64; 2],
-    /// The minimum and maximum across the set.
+    /// The minimum and maximum over the set.
     pub levels: [f64; 2],
     /// The fraction of levels within the range of the game's own levels.
     pub within: Share,
@@ -67,7 +67,7 @@ fn span(values: &[f64]) -> Option<[f64; 2]> {
     Some([found.min, found.max])
 }
 
-/// Returns a table that compares the measures' ranges side by side.
+/// Returns a table that compares the ranges of each measure in the set and in the game's own levels.
 fn beside(fits: &[Fit]) -> Table {
     let mut table = Table::new("fit", "", "", &["", "these levels", "the game's own", "within them"]);
     let span = |[low, high]: [f64; 2]| {
@@ -166,7 +166,7 @@ struct LineUse {
     rule: String,
     /// `true` if the interaction is with the edge of the screen.
     guard: bool,
-    /// The fraction, among levels with a witness, whose witness executes the interaction.
+    /// Among the levels with a witness, the fraction whose witness executes the interaction.
     levels: Share,
 }
 

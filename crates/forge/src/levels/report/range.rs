@@ -1,10 +1,10 @@
-//! Expressive range: the positions of levels in pairs of measures (G. Smith and J. Whitehead, "Analyzing the Expressive
-//! Range of a Level Generator", 2010).
+//! Expressive range: the distribution of levels over pairs of measures (G. Smith and J. Whitehead, "Analyzing the
+//! Expressive Range of a Level Generator", 2010).
 
 use crate::survey::SurveyedLevel;
 use serde::Serialize;
 
-/// The pairs of measures to plot: x, then y. The pairs were chosen before any level was generated.
+/// The pairs of measures to plot, each as x and then y. The pairs were chosen before any level was generated.
 const PAIRS: [(&str, &str); 6] = [
     ("openness", "ticks"),
     ("cover", "pressure"),
@@ -28,9 +28,9 @@ pub struct Range {
     pub levels: Vec<[f64; 2]>,
     /// The value pairs of the game's own levels that have both measures.
     pub examples: Vec<[f64; 2]>,
-    /// The number of levels in each cell: [`BINS`] rows, from the bottom, with [`BINS`] cells each.
+    /// The number of levels in each cell, as [`BINS`] rows from bottom to top with [`BINS`] cells each.
     pub cells: Vec<Vec<u64>>,
-    /// The number of cells with a level.
+    /// The number of cells with at least one level.
     pub occupied: u64,
 }
 
@@ -63,7 +63,7 @@ impl Axis {
     }
 }
 
-/// Returns the smallest number in the series 10, 20, 50, 100, … that is at least a value.
+/// Returns the smallest number of the series 10, 20, 50, 100, … that is not less than a value.
 fn above(value: f64) -> f64 {
     let mut ten = 10.0;
     while ten * 10.0 <= value {

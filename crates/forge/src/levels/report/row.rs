@@ -36,7 +36,7 @@ pub struct LevelRow {
     pub nearest: Option<f64>,
 }
 
-/// The names of the play measures, in report order. The board measures follow.
+/// The names of the play measures, in report order. In the report, the board measures follow them.
 const OF_PLAY: [&str; 6] = ["ticks", "pushes", "branching", "mechanics", "pressure", "skill"];
 
 impl LevelRow {

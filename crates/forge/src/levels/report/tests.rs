@@ -1,4 +1,4 @@
-//! Tests with a small hand-made set that has easily counted figures.
+//! Tests with a small hand-made set whose figures are easy to count.
 
 use super::*;
 use crate::survey::LevelSurvey;
@@ -28,8 +28,8 @@ fn fared(player: &str, looks_ahead: bool, wins: u64) -> PlayerResult {
     }
 }
 
-/// Returns a level that is won by `steps` steps to the right, with invented verdicts. If `steps` is 0, the level is
-/// not won.
+/// Returns a level that is won by moving right `steps` times, with made-up verdicts. If `steps` is 0, the level is not
+/// won.
 fn judged(game: &Game, text: &str, steps: usize, [random, weak, strong]: [u64; 3]) -> SurveyedLevel {
     let level = game.level(text).unwrap();
     let (mut episode, mut state) = Episode::begin(game, &level, Seed::from_text("made up"));
@@ -137,7 +137,7 @@ fn players_and_rules_are_summed_up() {
     assert_eq!(skill["players"][2]["wins"]["count"], 8);
     // The levels without a witness have no measures, and therefore no gap.
     assert_eq!(skill["wins"]["levels"], 2);
-    // Two players do equally well on the second level. If all players do equally well, there is no order.
+    // On the second level, two players do equally well. No order exists where all players do equally well.
     let order = &skill["order"];
     assert_eq!(order["levels"], 2);
     assert!(

@@ -58,9 +58,9 @@ impl Boards {
     }
 }
 
-/// Returns the change from one board to the next, with one line `AT COUNT MARK…` per replaced range. The last
-/// range comes first, so that the positions of earlier ranges remain valid. A mark is written as `TILE,X,Y`,
-/// followed by its width and height if it does not fill a cell.
+/// Returns the change from one board to the next, with one line `AT COUNT MARK…` per replaced range. The last range
+/// comes first, so that the positions of earlier ranges stay valid. A mark is written as `TILE,X,Y`, followed by its
+/// width and height if they differ from those of a cell.
 fn change(from: &[Mark], to: &[Mark], cell: i32) -> String {
     let mut text = String::new();
     for op in capture_diff_slices(Algorithm::Myers, from, to).iter().rev() {

@@ -58,7 +58,7 @@ struct Replay {
     stills: Vec<Figure>,
     /// The episode's actions, with repeated actions counted.
     actions: String,
-    /// The prompt shown to the player before its first decision.
+    /// The prompt that the player received before its first decision.
     told: Vec<String>,
     /// The messages of each decision, or an empty list for players without messages.
     decisions: Vec<Decision>,
@@ -68,7 +68,7 @@ struct Replay {
 
 #[derive(Serialize)]
 struct Decision {
-    /// The board at which the player decided, as an index into the shown boards.
+    /// The board on which the player based the decision, as an index into the boards shown.
     at: usize,
     /// The index of the decision's first step.
     step: usize,
@@ -95,9 +95,9 @@ struct Candidate<'a> {
 }
 
 impl Replays {
-    /// Returns up to `results.replays` episodes per player. Failures come first, with one episode per cause.
-    /// If the replays would exceed `room` bytes, models take precedence. Cost: playing and drawing O(steps)
-    /// per episode.
+    /// Returns up to `results.replays` episodes per player. Failures come first, with one episode per cause. If the
+    /// replays would exceed `room` bytes, models take precedence. Cost: O(steps) per episode, for playing and
+    /// drawing.
     pub(super) fn of(results: &Results<'_>, room: usize) -> Result<Replays, PageError> {
         let (players, mut left_out) = (candidates(results), 0);
         let mut tiles: BTreeMap<String, Tiles> = BTreeMap::new();

@@ -33,8 +33,8 @@ pub(super) struct Answer {
 
 /// Returns the messages exchanged at each decision, in order. Decisions without messages have an empty entry.
 ///
-/// If a conversation continues from an earlier level, the log repeats that level's texts, which are omitted
-/// here. The question after the last decision is assigned to that decision.
+/// If a conversation continues from an earlier level, the log repeats the texts of that level. The repetitions are
+/// omitted here. The question after the last decision is assigned to that decision.
 pub(super) fn talks(log: &[Event]) -> Vec<Talk> {
     let (mut talks, mut current, mut new): (Vec<Talk>, _, _) = (Vec::new(), Talk::default(), Vec::new());
     for event in log {

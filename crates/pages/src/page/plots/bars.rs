@@ -72,7 +72,7 @@ mod tests {
             amount: format!("{name} in all"),
         };
         let svg = bars("costs", &["kept", "lost"], &[row("look", &[1.0, 3.0]), row("skill", &[2.0, 0.0])]);
-        // One bar ends at half of the longest bar's length, and the other bar at its full length.
+        // One bar is half as long as the longest bar, and the other is the longest bar itself.
         assert!(svg.contains("L300 ") && svg.contains("L450 "), "{svg}");
         assert!(svg.contains("skill in all") && svg.contains("<title>look, lost</title>"), "{svg}");
         assert_eq!(svg.matches("class=\"fill\"").count(), 5, "the key, and each part that is not 0");

@@ -1,4 +1,4 @@
-//! Heat maps, which show one value per row and column, both as a colour and in digits.
+//! Heat maps, which show one value per row and column, as a colour and as text.
 
 use super::canvas::{Anchor, Canvas};
 use super::{Label, step};

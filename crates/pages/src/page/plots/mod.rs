@@ -1,11 +1,10 @@
 //! SVG plots inside a page. Plots are pure functions of plain numbers, so the same numbers give identical
 //! bytes.
 //!
-//! Colours are classes with a light and a dark variant in `plots.css`. `q0` to `q10` form a sequential scale
-//! in one hue. Its steps differ only in lightness, so the scale is readable with every kind of colour vision.
-//! `d0` to `d10` form a diverging scale from blue through neutral to orange, for values that may be negative.
-//! Every value is also written as text. Missing values are grey and hatched, and never use a colour from the
-//! scale.
+//! Colours are classes with a light and a dark variant in `plots.css`. `q0` to `q10` form a sequential scale of a
+//! single hue. Its steps differ only in lightness, so the scale is readable with every kind of colour vision. `d0` to
+//! `d10` form a diverging scale from blue through neutral to orange, for values that may be negative. Every value is
+//! also written as text. Missing values are grey and hatched, and never use a colour from a scale.
 
 mod bars;
 mod canvas;

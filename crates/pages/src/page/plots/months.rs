@@ -21,8 +21,8 @@ const NAMES: f64 = 150.0;
 pub(crate) struct MonthPoint {
     pub(crate) value: f64,
     pub(crate) band: [f64; 2],
-    /// For each end of the interval, `true` if the data determine that end. If they do not, the interval
-    /// extends to the edge of the plot.
+    /// For each end of the interval, `true` if the data determine that end. Otherwise, the interval extends to the
+    /// edge of the plot.
     pub(crate) is_bounded: [bool; 2],
 }
 
@@ -134,7 +134,7 @@ fn draw(
     }
 }
 
-/// Writes the line names at the ends of the lines, far enough apart vertically.
+/// Writes the line names next to the ends of the lines, with enough vertical distance between them.
 fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64) -> f64) {
     let mut ends: Vec<(f64, &MonthSeries)> = plot
         .series

@@ -12,7 +12,7 @@ const LEFT: f64 = 58.0;
 /// The height of the top margin, in pixels.
 const TOP: f64 = 10.0;
 
-/// Draws the levels in a set by two measures. Cells with more levels are darker. The game's own levels are
+/// Draws the levels in a set according to two measures. Cells with more levels are darker. The game's own levels are
 /// drawn as diamonds. Cost: O(cells).
 pub(crate) fn range(range: &Range) -> String {
     let Range { x, y, cells, examples, .. } = range;

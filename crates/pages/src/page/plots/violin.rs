@@ -18,7 +18,8 @@ const FOOT: f64 = 54.0;
 const HALF: f64 = 46.0;
 /// The number of points at which a violin's density is evaluated.
 const POINTS: usize = 48;
-/// The maximum number of values for which the individual values are drawn as dots, too.
+/// The maximum number of values that are drawn as individual dots. Beyond that, a box from the lower to the upper
+/// quartile is drawn instead.
 const DOTS: usize = 30;
 
 pub(crate) struct Violin<'a> {
@@ -27,8 +28,8 @@ pub(crate) struct Violin<'a> {
     pub(crate) values: &'a [f64],
 }
 
-/// Draws violins, each with a box from the lower to the upper quartile and a line at the median. `label`
-/// describes the plot. The scale extends from `low` at the bottom to `high` at the top.
+/// Draws violins, each with a line at the median, and with either dots for its values or a box from the lower to the
+/// upper quartile. `label` describes the plot. The scale extends from `low` at the bottom to `high` at the top.
 ///
 /// The densities are estimated with Gaussian kernels, using Silverman's bandwidth (Density Estimation, 1986,
 /// equation 3.31). All violins have the same maximum width. Cost: O(values).

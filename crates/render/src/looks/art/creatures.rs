@@ -13,7 +13,7 @@ fn ring(art: &mut Art) {
     art.fill(Outline::circle(0.5, 0.5, 0.4), RING.mixed(PAPER, 75));
 }
 
-/// Draws the ring around the avatar, with a pointer that shows the avatar's orientation.
+/// Draws the ring around the avatar, with a pointer in the direction of the avatar's orientation.
 pub(super) fn ring_of_avatar(art: &mut Art) {
     ring(art);
     if let Some(direction) = art.facing {

@@ -11,7 +11,7 @@ use crate::looks::shape::Outline;
 /// The size of a figure within the avatar's ring.
 const IN_RING: f32 = 0.72;
 
-/// Adds a figure, and the signs that show its meaning in the rules.
+/// Adds a figure, and the signs that show what the figure means in the rules.
 pub(crate) fn draw(art: &mut Art, figure: &Figure) {
     if art.look.glyph == Glyph::Avatar {
         ring_of_avatar(art);

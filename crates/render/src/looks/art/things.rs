@@ -4,7 +4,7 @@ use super::Art;
 use crate::looks::colour::{Colour, INK, PAPER};
 use crate::looks::shape::Outline;
 
-/// Draws a star in the item's own colour: a flat one, one with a round middle, or one with many points.
+/// Draws a star in the item's own colour. The star is flat, has a round middle, or has many points.
 pub(crate) fn treasure(art: &mut Art) {
     let main = art.main();
     let (points, inner) = match art.look.variant {

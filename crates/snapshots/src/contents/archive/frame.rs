@@ -19,7 +19,7 @@ const WINDOW_LOG: u8 = 23;
 /// The compression level, which is high because an archive is compressed once but read often.
 const LEVEL: i32 = 15;
 
-/// Returns `true` if the regular file at `path` begins as an archive does.
+/// Returns `true` if the regular file at `path` starts with the magic number of a zstd file, as archives do.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -36,7 +36,7 @@ pub(super) fn begins_as_packed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(head.starts_with(&MAGIC) && stated_size(&head).is_ok())
 }
 
-/// Reads up to the maximum length of a frame header: magic number, descriptor, window and size.
+/// Reads the start of a file, up to the maximum length of a frame header: magic number, descriptor, window and size.
 fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(4 + 1 + 1 + 8).read_to_end(&mut head));
@@ -66,8 +66,8 @@ pub(super) fn is_sealed(path: &Path) -> Result<bool, SnapshotError> {
     Ok(end.len() == SEAL_LENGTH && end.starts_with(&SEAL))
 }
 
-/// Decompresses the first block of the regular file at `path`, whichever tool compressed the file; `None` if
-/// the block cannot be decompressed.
+/// Decompresses the first block of the regular file at `path`, regardless of the tool that compressed the file;
+/// `None` if the block cannot be decompressed.
 ///
 /// # Errors
 /// Returns an error if the file cannot be opened.
@@ -152,7 +152,7 @@ impl BufRead for Hashed<BufReader<File>> {
 pub(super) enum Unreadable {
     /// A file system operation failed.
     Io(io::Error),
-    /// The archive is not in the form in which archives are packed.
+    /// The archive does not have the form in which archives are packed.
     Damaged(String),
 }
 
@@ -213,7 +213,7 @@ impl FrameReader {
         }
     }
 
-    /// Checks that the stated content, the frame and the file all end at the current position.
+    /// Checks that the stated content, the frame and the file all end here.
     pub(super) fn finish(&mut self) -> Result<(), Unreadable> {
         let damaged = |what: &str| Err(Unreadable::Damaged(what.into()));
         if self.left > 0 || self.decoder.read(&mut [0]).map_err(unreadable)? > 0 {

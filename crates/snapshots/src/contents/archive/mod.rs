@@ -72,8 +72,8 @@ pub struct Packed {
 /// Packs the release folder `root` into the file `out`, which must not exist yet. The same release produces the same
 /// uncompressed bytes on every machine.
 ///
-/// `out` is either complete or absent. Until then, the data is stored in a [`Draft`]'s folder
-/// `<out>.partial`, which replaces a stale folder of that name.
+/// `out` appears only when it is complete. Until then, the data is stored in the folder of a [`Draft`],
+/// `<out>.partial`. A stale folder of that name is replaced.
 ///
 /// Cost: two passes over the files, and enough memory for one file.
 ///
@@ -162,10 +162,10 @@ fn most(size: u64) -> u64 {
 /// The result of reading an archive: its manifest, its files, and all problems found.
 #[derive(Debug, Clone)]
 pub struct Archive {
-    /// The manifest, and the problems in the form used by [`check_integrity`]. Reading stops at the first
-    /// fault in the archive's own structure.
+    /// The manifest, and the problems in the form used by [`check_integrity`]. Reading stops at the first fault in
+    /// the structure of the archive itself.
     pub integrity: Integrity,
-    /// The digest of the uncompressed bytes read, which are all bytes if the archive is sound.
+    /// The digest of the uncompressed bytes that were read. In a sound archive, these are all of its bytes.
     pub digest: Digest,
     /// The number of uncompressed bytes read.
     pub unpacked: u64,
@@ -174,15 +174,16 @@ pub struct Archive {
 }
 
 impl Archive {
-    /// Reads an untrusted archive. Nothing is unpacked to disk, and the file's own size limits the amount to read
-    /// ([`MAX_RATIO`]) before anything is decompressed.
+    /// Reads an untrusted archive. Nothing is unpacked to disk. Before anything is decompressed, the amount to read
+    /// is limited in proportion to the file's size ([`MAX_RATIO`]).
     ///
     /// Cost: one pass, and memory for the content, up to [`MAX_UNPACKED`] plus a window of 8 MiB.
     ///
     /// # Errors
-    /// Returns an error if the file is not a zstd file ([`NotASnapshot`](SnapshotError::NotASnapshot), or a damaged
-    /// archive if it has an archive's name), is damaged before the end of the manifest
-    /// ([`Archive`](SnapshotError::Archive)), has a manifest that is unsound in itself, or cannot be read.
+    /// Returns an error if the file is not a zstd file: [`NotASnapshot`](SnapshotError::NotASnapshot), or
+    /// [`Archive`](SnapshotError::Archive) if the file is named like an archive. Also returns an error if the archive
+    /// is damaged before the end of the manifest ([`Archive`](SnapshotError::Archive)), if the manifest is
+    /// inconsistent, or if the file cannot be read.
     pub fn open(path: &Path) -> Result<Archive, SnapshotError> {
         Archive::read(path, true)
     }
@@ -283,8 +284,8 @@ pub(crate) fn is_called_archive(path: &Path) -> bool {
 }
 
 /// Returns `true` if the regular file at `path` is not a release archive, not even a damaged one. Such a file has no
-/// seal, and its first entry is not a manifest. If the first entry cannot be unpacked, the file must also not begin
-/// as an archive does.
+/// seal, and its first entry is not a manifest. If the first entry cannot be decompressed, the file must also lack
+/// the frame header of an archive.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -358,7 +359,7 @@ fn at(path: &str, flaw: Flaw) -> Stop {
     Stop::Problem(Problem { path: path.to_owned(), flaw })
 }
 
-/// Returns a function that converts an [`Unreadable`] at `path` into the reason to stop.
+/// Returns a closure for `map_err` that converts an [`Unreadable`] at `path` into the reason to stop.
 fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     let path = path.to_owned();
     move |unreadable| match unreadable {
@@ -367,7 +368,7 @@ fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     }
 }
 
-/// Reads the list of one part of the withheld files. Its header states its size.
+/// Reads the list of one part of the withheld files. The size is stated in the entry's header.
 fn read_list(
     reader: &mut FrameReader,
     manifest: &Manifest,

@@ -1,9 +1,9 @@
 //! Reads a recipe as arbitrary JSON in bounded memory.
 //!
-//! A manifest is untrusted input, and its root can be compared only after all of it has been read. Two limits
-//! bound the memory that a few bytes can cost. Nesting depth is limited because the canonical text indents
-//! every level. The number of values is limited because each value takes much more memory than the two bytes
-//! in which it can be written.
+//! A manifest is untrusted input, and its root can be compared only after the whole manifest has been read. Two
+//! limits bound the memory that a few bytes can cost. Nesting depth is limited, because the canonical text indents
+//! every level. The number of values is limited, because a value takes much more memory than the two bytes that
+//! suffice to write it.
 
 use std::cell::Cell;
 
@@ -15,7 +15,7 @@ use serde_json::{Map, Value};
 pub(super) const MAX_NESTING: usize = 16;
 /// The maximum number of values in a recipe. An object counts as [`OBJECT`] values.
 pub(super) const MAX_VALUES: usize = 1 << 20;
-/// The number of values counted for an object.
+/// The number of values that an object counts as.
 const OBJECT: usize = 16;
 
 /// Reads a value with at most [`MAX_NESTING`] levels and [`MAX_VALUES`] values. Any excess is rejected before
@@ -24,7 +24,8 @@ pub(super) fn bounded<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Valu
     Bounded { levels: MAX_NESTING, values: &Cell::new(MAX_VALUES) }.deserialize(deserializer)
 }
 
-/// The remaining budget: the number of levels below the current value, and the number of values in the whole recipe.
+/// The remaining budget: the number of levels below the current value, and the number of values in the rest of the
+/// recipe.
 #[derive(Clone, Copy)]
 struct Bounded<'a> {
     levels: usize,

@@ -57,7 +57,7 @@ pub(super) fn check_files(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_items(&items, &Limits::SNAPSHOT)
 }
 
-/// Infers a manifest's format from its fields.
+/// Infers a manifest's format from the fields that are present.
 pub(super) fn shape(manifest: &Manifest) -> u32 {
     match (&manifest.version, &manifest.withheld) {
         (None, _) => OLDEST_FORMAT,
@@ -124,7 +124,7 @@ fn check_items(items: &[Item], limits: &Limits) -> Result<(), SnapshotError> {
     check_tree(items, limits)
 }
 
-/// Checks that the items form one folder tree on any file system: a path cannot be both a file and a folder, and no
+/// Checks that the items form a single folder tree on any file system: no path is both a file and a folder, and no
 /// two names differ only in case.
 ///
 /// Each item is compared only with its predecessor in tree order, so no paths are stored. Uses two words of
@@ -168,8 +168,8 @@ fn shared_components(before: &str, path: &str) -> Result<usize, SnapshotError> {
         ends = (ends.0 + 1, ends.1 + 1);
         shared += 1;
     }
-    // The previous file is a folder here. The opposite case cannot occur, because the file would come after
-    // the folder's content.
+    // The previous file's path is a folder here. The opposite case cannot occur, because a file sorts after the
+    // content of a folder with the same path.
     if shared > 0 && before.split('/').count() == shared {
         return Err(unsound(format!("`{before}` is both a file and a folder")));
     }
@@ -188,7 +188,7 @@ mod tests {
         change(&mut manifest);
         let error = check(&manifest).expect_err(expect);
         assert!(error.to_string().contains(expect), "{error}");
-        // Also checked through bytes, because the reader must reject whatever the writer rejects.
+        // The text is also parsed, because the reader must reject whatever the writer rejects.
         let text = manifest.text().expect("plain recipe");
         let from_text = Manifest::parse(text.as_bytes()).expect_err(expect);
         assert_eq!(from_text.to_string(), error.to_string());
@@ -235,7 +235,7 @@ mod tests {
         let limits = &Limits::SNAPSHOT;
         assert!(check_items(&many(99_999, 0), limits).is_ok());
         assert!(check_items(&many(100_000, 0), limits).is_err());
-        // 63 files of 64 MiB leave 64 MiB for the manifest.
+        // 63 files of 64 MiB leave exactly 64 MiB for the manifest.
         assert!(check_items(&many(63, 64 << 20), limits).is_ok());
         assert!(check_items(&many(64, 64 << 20), limits).is_err());
         let deep = [Item::of("a/b/c/d", b"")];

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum ReleaseKind {
     /// The recipe contains the seed.
     Open,
-    /// The recipe contains a commitment to the seed, and the seed is revealed later.
+    /// The recipe contains a commitment to the seed, which is revealed later.
     Sealed,
 }
 

@@ -42,12 +42,12 @@ pub const SEALED_FORMAT: u32 = 3;
 pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file with the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
-/// The path of the leaf that includes the manifest's header under the root.
+/// The path of the leaf through which the root covers the manifest's header.
 pub const HEADER_LEAF: &str = "MANIFEST";
 /// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
 
-/// A release's description and content. The module documentation states which fields the root covers.
+/// The description and content of a release. The module documentation states which fields the root covers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -90,7 +90,7 @@ pub struct Manifest {
     pub checksum: Digest,
 }
 
-/// The part of the manifest that its own leaf covers. Adding a field here changes every root.
+/// The fields of the manifest that the header's leaf covers. Adding a field here changes every root.
 #[derive(Serialize)]
 struct Header<'a> {
     format: u32,
@@ -112,35 +112,36 @@ impl Manifest {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
     }
 
-    /// Returns the known paths of the files that a sealed release withholds until the reveal, without the
-    /// lists.
+    /// Returns the paths, as far as they are known, of the files that a sealed release withholds until the reveal.
+    /// The list files are not included.
     pub(crate) fn held(&self) -> BTreeSet<&str> {
         let held = self.files().map(|item| item.path.as_str());
         held.filter(|path| path.starts_with(HELD) && HeldPart::of_list(path).is_none()).collect()
     }
 
-    /// Returns the items and the known withheld files.
+    /// Returns the items and the withheld files that are known.
     pub fn files(&self) -> impl Iterator<Item = &Item> {
         self.items.iter().chain(self.disclosed())
     }
 
-    /// Returns the known withheld files: the lists and the files listed in them; empty before format 3.
+    /// Returns the withheld files that are known: the lists, and the files listed in them. Empty before format 3.
     pub(crate) fn disclosed(&self) -> &[Item] {
         self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
     }
 
-    /// Returns the known withheld files, excluding their lists.
+    /// Returns the withheld files that are known, excluding the lists.
     pub(crate) fn withheld_files(&self) -> impl Iterator<Item = &Item> {
         self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_none())
     }
 
-    /// Returns the files in archive order: the items, then the lists of withheld files, then the withheld files.
+    /// Returns the files in archive order: the items, then the lists of withheld files, and then the files in those
+    /// lists.
     pub(crate) fn in_archive_order(&self) -> impl Iterator<Item = &Item> {
         let lists = self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_some());
         self.items.iter().chain(lists).chain(self.withheld_files())
     }
 
-    /// Returns the item or the known withheld file at a path.
+    /// Returns the item or the known withheld file at a path, if any.
     pub fn item(&self, path: &str) -> Option<&Item> {
         [&self.items[..], self.disclosed()].into_iter().find_map(|items| {
             let at = items.binary_search_by(|item| item.path.as_str().cmp(path)).ok()?;
@@ -163,8 +164,8 @@ impl Manifest {
         check::check_files(self)
     }
 
-    /// Returns the leaves of the tree, sorted by the bytes of their paths: the items and the header, for
-    /// [`merkle::root`] and [`merkle::prove`].
+    /// Returns the leaves of the tree for [`merkle::root`] and [`merkle::prove`]: the items and the header, sorted by
+    /// the bytes of their paths.
     ///
     /// # Errors
     /// Returns an error if the recipe has no canonical JSON.
@@ -223,15 +224,15 @@ impl Manifest {
         Ok(merkle::root(&self.leaves()?)?)
     }
 
-    /// Reads a manifest and checks everything that can be checked without the files, except the root.
+    /// Reads a manifest, and checks everything that can be checked without the files, except the root.
     /// [`check_integrity`](crate::check_integrity) reports a wrong root together with the problems in the files.
     ///
     /// # Errors
     /// Returns an error in each of these cases:
     ///
     /// - The manifest is too large, has a different format, or is not JSON with the expected structure.
-    /// - The items are unsorted, duplicate, reserved, too large, too many, equal except for case, or have unsafe
-    ///   paths.
+    /// - The items are unsorted, too large or too many. Item paths are duplicate, reserved or unsafe, or differ only
+    ///   in case.
     /// - The name or the canary is malformed.
     /// - A commitment is missing or unexpected.
     /// - The recipe nests too deeply or contains too many values.
@@ -275,8 +276,8 @@ impl Manifest {
         Ok(bytes)
     }
 
-    /// Returns `true` if these bytes are the text of this manifest in this format. The comparison does not
-    /// build a second copy of the text.
+    /// Returns `true` if the given bytes are this manifest's text in this format. The comparison does not build a
+    /// second copy of the text.
     ///
     /// # Errors
     /// Returns an error if the recipe has no canonical JSON.
@@ -284,14 +285,14 @@ impl Manifest {
         Ok(is_canonical_json(self, bytes)?)
     }
 
-    /// Returns this manifest's text in this format, without checking it.
+    /// Returns this manifest's text in this format without any checks.
     pub(crate) fn text(&self) -> Result<String, SnapshotError> {
         Ok(to_canonical_json(self)?)
     }
 }
 
-/// Returns `true` if a manifest's root matches the format implied by its fields, regardless of the stated
-/// version. The root covers the version, so no release in a different format can have this root.
+/// Returns `true` if a manifest's root matches the format inferred from its fields, whatever version it states. The
+/// root covers the version, so no release in a different format can have this root.
 fn commits_to_known_format(bytes: &[u8]) -> bool {
     let Ok(mut manifest) = serde_json::from_slice::<Manifest>(bytes) else { return false };
     manifest.format = check::shape(&manifest);

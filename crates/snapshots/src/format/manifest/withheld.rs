@@ -19,7 +19,7 @@ pub struct Withheld {
     pub(crate) disclosed: Vec<Item>,
 }
 
-/// A part of the withheld files that is revealed as a unit.
+/// A part of the withheld files. Each part is revealed as a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HeldPart {
     /// The published coin wins. A coin is a secret random decision about which of two equal items is published.

@@ -6,20 +6,20 @@ use crate::sections::puzzles::PuzzleKind;
 use crate::sections::section::JobCost;
 use validators::{Criteria, Criterion, CriterionSet};
 
-/// The mean cost of a job per requested level, in core-seconds: without gates or `skill`, with gates (as in
+/// The mean cost of a job per requested level, in core-seconds: with neither gates nor `skill`, with gates (as in
 /// `starter`), and with both (as in `medium` and `2026-12`).
 const CONSTRUCTIVE: [f64; 3] = [PLAIN, 2.8, 3.4];
-/// The same for inventions. Without gates, four jobs of one seed took 17 seconds per level. With gates, the jobs of
-/// three seeds took 10, 42 and 190 seconds per level, and ten jobs with `skill` took about 50 seconds.
+/// The same costs for inventions. Without gates, four jobs from one seed took 17 seconds per level. With gates, the
+/// jobs from three seeds took 10, 42 and 190 seconds per level, and ten jobs with `skill` took about 50 seconds.
 const INVENTED: [f64; 3] = [17.0, 60.0, 60.0];
 const CORPUS: [f64; 3] = [0.41, 0.41, 1.2];
-/// The mean cost of a level without gates if a win search may take [`PLAIN_BUDGET`] calls (the default). Most
-/// of it comes from failed searches, whose cost is proportional to their call budget.
+/// The mean cost of a level without gates if each win search may make [`PLAIN_BUDGET`] calls (the default). Most of
+/// the cost comes from failed searches, whose cost is proportional to their call budget.
 const PLAIN: f64 = 2.0;
 const PLAIN_BUDGET: f64 = 3e6;
-/// The part of [`PLAIN`] that does not depend on the budget, as a fraction.
+/// The fraction of [`PLAIN`] that does not depend on the budget.
 const FIXED: f64 = 0.2;
-/// The mean cost of measuring a level's difficulty without gates. With gates, few levels reach this measurement.
+/// The mean cost of measuring a level's difficulty without gates. With gates, few levels reach this step.
 const LADDER: f64 = 0.8;
 /// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates,
 /// a few failed searches dominate the cost. With gates, the cost varies less, because every candidate is
@@ -28,10 +28,9 @@ const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
 const SPREAD_FIXED_RULES: f64 = 0.8;
 const SPREAD_INVENTED: f64 = 1.2;
-/// The spread shared by all jobs in a mint, which reflects that job costs were measured with few recipes on
-/// one machine.
+/// The spread that all jobs in a mint share, because job costs were measured with few recipes on one machine.
 const SPREAD_SHARED: f64 = 0.15;
-/// The standard normal deviate of the 95th percentile.
+/// The 95th percentile of the standard normal distribution.
 const NINETY_FIVE: f64 = 1.645;
 /// The call budget per win search at which the costs with gates were measured.
 const GATED_BUDGET: f64 = 1e6;
@@ -99,7 +98,7 @@ impl Plan<'_> {
         let criteria = self.criteria_of(job);
         let made = match job {
             Job::Constructive(_) => of(CONSTRUCTIVE, levels, criteria),
-            // Searches for boards have budgets of their own.
+            // Searches for boards have their own budgets.
             Job::Invented(..) => {
                 let [plain, gated, skill] = INVENTED;
                 let gated = if criteria.includes(Criterion::Skill) { skill } else { gated };

@@ -31,7 +31,7 @@ use std::sync::{Arc, OnceLock};
 use validators::novelty::GameForm;
 use validators::{CheckedCriteria, Criteria, Criterion, Effort, Panel};
 
-/// A recipe with all the data required to mint it.
+/// A recipe with all the data that is required to mint it.
 #[derive(Debug)]
 pub struct Plan<'a> {
     /// The recipe to mint.
@@ -48,7 +48,7 @@ pub struct Plan<'a> {
     pub(super) criteria: CheckedCriteria,
     /// The criteria for corpus game levels.
     corpus_criteria: CheckedCriteria,
-    /// The rules of new games, divided among the jobs. They are drawn when a job first needs them.
+    /// The rule sets of new games, divided among the jobs. They are drawn when a job first needs them.
     sets: OnceLock<RuleSets>,
     /// The reference players; `None` if none have been set.
     players: Option<&'a dyn MarkPlayers>,
@@ -67,8 +67,8 @@ pub enum Job {
     Puzzle(PuzzleKind, u32),
 }
 
-/// The number of additional judges per game ([`GameEffort::judges`]). It is lower than in `arcade generate
-/// games`, because a month has hardly more candidates than games.
+/// The number of additional judges per game ([`GameEffort::judges`]). It is lower than in `arcade generate games`,
+/// because a monthly release has hardly more candidates than games.
 const JUDGES: u64 = 3;
 
 impl<'a> Plan<'a> {
@@ -128,7 +128,7 @@ impl<'a> Plan<'a> {
         Ok(self)
     }
 
-    /// Returns `true` if the release's seed and witnesses are withheld.
+    /// Returns `true` if the release is sealed, so that its seed and witnesses are withheld.
     pub fn is_sealed(&self) -> bool {
         self.recipe.commitment.is_some()
     }
@@ -138,7 +138,7 @@ impl<'a> Plan<'a> {
         &self.jobs
     }
 
-    /// Returns the indices of the jobs in the order in which games are listed, corpus games first.
+    /// Returns the indices of the jobs in the order in which the release lists their games, corpus games first.
     pub(super) fn in_order(&self) -> Vec<usize> {
         let is_new = |at: &usize| !matches!(self.jobs[*at], Job::Corpus(_));
         let (new, old): (Vec<usize>, Vec<usize>) = (0..self.jobs.len()).partition(is_new);
@@ -198,7 +198,7 @@ impl<'a> Plan<'a> {
         Ok(canonical_digest(&decisive)?)
     }
 
-    /// Returns the candidates for new games from kernels.
+    /// Returns the jobs that generate candidates for new games from kernels.
     fn generated(&self) -> impl Iterator<Item = Job> + use<> {
         let part = &self.recipe.generated;
         (0..candidates(part.games, part.candidates)).map(Job::Constructive)
@@ -209,7 +209,8 @@ impl<'a> Plan<'a> {
         self.recipe.invented.as_ref().map_or(0, |part| part.games)
     }
 
-    /// Returns the candidates for invented games, distributed according to the weights of the recipe's mix.
+    /// Returns the jobs that generate candidates for invented games, distributed according to the weights of the
+    /// recipe's mix.
     fn invented(&self) -> impl Iterator<Item = Job> + use<> {
         let methods = [Method::Evolutionary, Method::Search, Method::Constructive];
         let counts = self.recipe.invented.as_ref().map_or_else(Vec::new, |part| {
@@ -220,7 +221,7 @@ impl<'a> Plan<'a> {
         all.flat_map(|(method, count)| (0..count).map(move |number| Job::Invented(method, number)))
     }
 
-    /// Returns the candidates for puzzles.
+    /// Returns the jobs that generate candidates for puzzles.
     pub(super) fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
         let all = |kind: PuzzleKind| {
             let asked =
@@ -230,7 +231,7 @@ impl<'a> Plan<'a> {
         PuzzleKind::ALL.map(all).into_iter().flatten()
     }
 
-    /// Draws the corpus games to use.
+    /// Draws the corpus games to use, and returns their jobs.
     fn of_corpus(&self) -> Result<Vec<Job>, MintError> {
         let (asked, known) = (self.recipe.corpus.games, self.corpus.games.len());
         if asked as usize > known {
@@ -308,7 +309,7 @@ impl<'a> Plan<'a> {
     /// Generates an invented game.
     fn invent(&self, method: Method, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let Some(part) = &self.recipe.invented else { return (Vec::new(), Tally::default()) };
-        // A single attempt of a search, or a single round of an archive, examines many rule sets.
+        // A single attempt by search, or a single round of an archive, examines many rule sets.
         let tries = match method {
             Method::Constructive => part.game_tries,
             Method::Search | Method::Evolutionary => part.game_tries / 4,
@@ -320,7 +321,7 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
-    /// Returns the rules of new games. They must be assigned beforehand to be diverse, because jobs run
+    /// Returns the rule sets of new games. To be diverse, they must be assigned beforehand, because jobs run
     /// independently.
     pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
@@ -389,13 +390,13 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The maximum number of attempts to create a corpus game when its levels leave a rule unused. Beyond that,
-/// further levels are unlikely to use the rule.
+/// The number of times that the levels of a corpus game may leave a rule unused before attempts to create the game
+/// end. After that, further levels are unlikely to use the rule.
 const UNUSED: u64 = 3;
 
 /// Returns the number of candidates for a given number of games.
 fn candidates(games: u32, each: f64) -> u32 {
-    // At most 20 times 10,000, so there is no rounding error.
+    // The product is at most 20 times 10,000, so there is no rounding error.
     (f64::from(games) * each).ceil() as u32
 }
 

@@ -8,18 +8,18 @@ use forge::games::RuleSets;
 use forge::well::left;
 use validators::novelty::GameForm;
 
-/// The maximum number of games for which the first rule sets of all kernels suffice, so that rule sets need
+/// The maximum number of games for which the first rule sets of all kernels are enough, so that the rule sets need
 /// not be counted.
 const FEW: usize = 40;
 
-/// The number of rule sets used up by one invented game. Nine in ten rule sets have no boards that pass, and
+/// The number of rule sets that one invented game uses up. Nine in ten rule sets have no board that passes, and
 /// near-duplicates among a month's candidates are dropped.
 const SETS_OF_A_GAME: f64 = 16.0;
 
 impl Plan<'_> {
     /// Checks that there are enough rule sets for the requested number of games, with any seed. If the recipe
-    /// requests most of the possible new games, returns the maximum number of new games. Because some
-    /// candidates fail, fewer games may pass than requested.
+    /// requests most of the new games that are possible, returns the maximum number of new games. Some candidates
+    /// fail, so fewer games may pass than requested.
     ///
     /// Cost: a fraction of a second if the recipe requests more games than there are kernels.
     ///
@@ -62,14 +62,14 @@ impl Plan<'_> {
         })
     }
 
-    /// Checks that there are enough mechanics for the invented games, by estimating how many of their rule
-    /// sets are not near a known game.
+    /// Checks that there are enough mechanics for the invented games, by estimating the number of rule sets that are
+    /// not near a known game.
     fn invented_supply(&self) -> Result<Option<usize>, MintError> {
         let asked = self.recipe.invented.as_ref().map_or(0, |part| part.games as usize);
         if asked <= FEW && (asked == 0 || self.before.is_empty()) {
             return Ok(None);
         }
-        // Without earlier releases, so few games are known that they do not matter.
+        // Without earlier releases, there are so few known games that they do not matter.
         let known: Vec<GameForm> = match self.before.is_empty() {
             true => Vec::new(),
             false => self.forms.iter().chain(&self.before).cloned().collect(),

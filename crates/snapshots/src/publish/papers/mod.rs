@@ -90,7 +90,7 @@ struct Names {
 }
 
 impl Names {
-    /// Reads the names in a manifest's recipe. Names that are not of the expected form are left empty.
+    /// Reads the names in a manifest's recipe. Names that do not have the expected form are left empty.
     fn of(manifest: &Manifest) -> Names {
         serde_json::from_value(manifest.recipe.clone()).unwrap_or_default()
     }
@@ -102,7 +102,7 @@ pub(crate) fn title(manifest: &Manifest) -> String {
     Cited::of(&manifest.name, &names.authors, names.publisher.as_deref()).title()
 }
 
-/// Quotes text for YAML, using double quotes.
+/// Quotes text for YAML with double quotes.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for character in text.chars() {

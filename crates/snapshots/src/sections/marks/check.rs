@@ -1,5 +1,5 @@
-//! Checks reference results against the recipe's request, against the games' cards and against each other,
-//! without replaying episodes.
+//! Checks of reference results against the recipe's request, against the games' cards and against each other, without
+//! replaying episodes.
 
 use super::{Falls, GameMarks, LevelMarks, Marks, MarksPart, Wins, rates};
 use crate::contents::Contents;

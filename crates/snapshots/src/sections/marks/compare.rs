@@ -26,8 +26,8 @@ pub struct MarkDifference {
     pub interval: [f64; 2],
 }
 
-/// Returns the differences between the reference results present in both releases, in the order of
-/// [`Marks::rates`]; empty if the episodes of the two releases have different limits and therefore cannot be
+/// Returns the differences between the reference results that both releases contain, in the order of
+/// [`Marks::rates`]. Empty if the episodes of the two releases have different limits and therefore cannot be
 /// compared.
 pub fn mark_differences(ours: &Marks, theirs: &Marks) -> Vec<MarkDifference> {
     if ours.asked.max_steps != theirs.asked.max_steps {

@@ -1,9 +1,9 @@
 //! Marks, or reference results: the results of fixed players on a release's levels, stored in the release for
 //! comparison with other players.
 //!
-//! The recipe specifies the players. When the release is minted, they play each level with each commitment,
-//! and their results are stored in a file of the release. In a sealed release, this file is withheld, so that
-//! the levels' difficulty is not revealed early.
+//! The recipe specifies the players. When the release is minted, they play each level with each commitment, and their
+//! results are stored in a file of the release. In a sealed release, this file is withheld, so that the difficulty of
+//! the levels is not revealed early.
 
 mod check;
 mod compare;
@@ -44,11 +44,11 @@ const MOST_CALLS: u64 = 2000;
 /// The maximum number of forward-model calls per plan that a recipe can request.
 const MOST_PLAN_CALLS: u64 = 100_000;
 
-/// The average length of an episode, as a fraction of the maximum number of actions.
+/// The average length of an episode, as a fraction of the maximum length.
 const PLAYED: f64 = 0.5;
 /// The cost of a forward-model call, in seconds.
 const CALL: f64 = 1e-6;
-/// The cost of a prompt with its answer, in seconds.
+/// The cost of a prompt and its answer, in seconds.
 const PROMPT: f64 = 3e-3;
 
 /// The planner that searches for whole plans.
@@ -65,10 +65,10 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MarksPart {
-        /// The players, in the notation of `arcade evaluate --player`. Planners include their call budget per
-        /// decision.
+        /// The players, in the notation of `arcade evaluate --player`. The name of a planner includes its call budget
+        /// per decision.
         pub players: Vec<String> = names(&["random", "touch-everything", "nearest-goal", "reflex", "width:200", "guided-mcts:200", "olets:200"]),
-        /// The numbers of actions that the players commit to at each look.
+        /// The numbers of actions that the players commit to at each decision.
         pub commits: Vec<Commitment> = vec![Commitment::One, Commitment::Five, Commitment::Twenty, Commitment::All],
         /// The number of episodes per player, commitment and level.
         pub plays: u64 = 2,
@@ -139,8 +139,8 @@ impl MarksPart {
     }
 }
 
-/// The interface for playing the reference players. The evaluation crate implements it, because this crate
-/// does not depend on that crate.
+/// The interface through which the reference players play. The evaluation crate implements it, because this crate
+/// does not depend on that one.
 pub trait MarkPlayers: Sync + Debug {
     /// Checks that a player with the given name exists.
     ///
@@ -169,10 +169,11 @@ pub struct Marks {
     pub format: u32,
     /// The recipe's request.
     pub asked: MarksPart,
-    /// The win rate of each player with each commitment: first for each tier, from the lowest, and then for all
+    /// The win rate of each player with each commitment, first in each tier (lowest tier first) and then over all
     /// levels.
     pub rates: Vec<MarkRate>,
-    /// The decreases in win rate from each tier to the next, and from each commitment to the next.
+    /// The decreases in win rate from each tier to the next higher one, and from each commitment to the next longer
+    /// one.
     pub falls: Falls,
     /// The games, ordered by folder name.
     pub games: Vec<GameMarks>,
@@ -207,11 +208,11 @@ pub struct MarkRate {
     pub tier: Option<Tier>,
     /// The reference player.
     pub player: String,
-    /// The number of actions to which the player commits at each look.
+    /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
     /// The number of levels.
     pub levels: u64,
-    /// The mean over levels of the fraction of episodes won, with its interval over games.
+    /// The mean over levels of the fraction of episodes won, with its interval clustered by game.
     pub rate: Clustered,
 }
 

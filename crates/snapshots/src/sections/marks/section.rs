@@ -1,4 +1,4 @@
-//! The hooks for `[marks]`.
+//! The implementation of the hooks for `[marks]`.
 
 use super::check::{problems, shape_problem};
 use super::{GameMarks, LevelMarks, Marks, MarksPart};

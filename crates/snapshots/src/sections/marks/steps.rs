@@ -10,14 +10,14 @@ use validators::{Commitment, Tier};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Falls {
-    /// The decreases from each tier to the next existing tier, over all commitments.
+    /// The decreases from each tier to the next higher tier that exists, over all commitments.
     pub tiers: Vec<Fall<Tier>>,
-    /// The decreases from each commitment to the next, over all levels.
+    /// The decreases from each commitment to the next longer one, over all levels.
     pub commits: Vec<Fall<Commitment>>,
 }
 
-/// The difference between two win rates, paired by game. Each game counts once, and its difficulty cancels
-/// out.
+/// The difference between two win rates, paired by game. Each game counts once, and its difficulty cancels out in the
+/// difference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fall<T> {
@@ -30,7 +30,7 @@ pub struct Fall<T> {
     pub to: T,
     /// The number of games with levels of both kinds.
     pub games: u64,
-    /// The mean win rate in these games on each of the two kinds of level.
+    /// The mean win rates in these games, on the levels of each of the two kinds.
     pub rates: [f64; 2],
     /// The first rate minus the second rate.
     pub fall: f64,
@@ -123,8 +123,8 @@ mod tests {
     #[test]
     fn falls_are_paired_over_games() {
         let ids = ["a", "b", "c", "d", "e", "f"];
-        // On tier 1, both players win all episodes. On tier 4, the second player wins half of its episodes, except
-        // that it wins none with `all` in every other game.
+        // On tier 1, both players win all episodes. On tier 4, the second player wins half of its episodes, except in
+        // every other game, where it wins none with `all`.
         let marks = marks(&ids, |game, tier| match tier {
             Tier::One => vec![vec![2, 2], vec![2, 2]],
             _ => vec![vec![0, 0], vec![1, (game % 2) as u64]],

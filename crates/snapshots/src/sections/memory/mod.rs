@@ -1,5 +1,5 @@
-//! Coins for memory tests. Minting creates pairs whose members can be told apart only by a player who knows
-//! the published one. A coin decides which member is published, and the release commits to the other ([the
+//! Coins for memory tests. Minting creates pairs whose members can be told apart only by a player who knows the
+//! published one. A coin decides which member is published, and the release commits to the other ([the
 //! tests](../../../../../docs/how-to/memory.md)).
 //!
 //! A pair consists of two renamings of a game (siblings) or two wins of a level. Its coin is drawn from the
@@ -21,8 +21,8 @@ use base::{Digest, Seed, SeedStep};
 use engine::Episode;
 use serde::{Deserialize, Serialize};
 
-/// The number of initial actions by which wins are distinguished. A player that knows a published win begins
-/// with the win's actions.
+/// The number of initial actions by which two wins are distinguished. A player that knows a published win begins with
+/// the same actions.
 pub const PREFIX: usize = 10;
 
 /// A game's sibling: the same rules and levels under different names.
@@ -47,15 +47,14 @@ pub struct SecondWin {
     pub path: Vec<SeedStep>,
 }
 
-/// Returns `true` if a pair's coin publishes `one`. `what` names the kind of pair.
+/// Returns `true` if the coin for a pair publishes `one`. `what` names the kind of pair.
 fn publishes(root: Seed, what: &str, one: Digest, other: Digest) -> bool {
     let first = one.min(other);
     let is_first = root.child(&format!("coin of {what} {first}"), 0).sampler().ratio(1, 2);
     is_first == (one == first)
 }
 
-/// Returns `true` if the coin for two siblings, identified by the digests of their rules, publishes the
-/// first.
+/// Returns `true` if the coin for two siblings, identified by the digests of their rules, publishes the first.
 pub(crate) fn publishes_sibling(root: Seed, one: Digest, other: Digest) -> bool {
     publishes(root, "siblings", one, other)
 }
@@ -79,11 +78,12 @@ mod tests {
         check(&format!("{GOOD}[memory]\nsibling = true"), "unknown field `sibling`");
         let part = Recipe::to_commit(&format!("{GOOD}[memory]\nsiblings = false")).unwrap().memory;
         assert_eq!(part, Some(MemoryPart { siblings: false, witnesses: true }));
-        // Recipes that request no pairs keep their bytes.
+        // Recipes that request no pairs are serialised as before.
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("memory").is_none());
     }
 
-    /// The coin publishes the same member of a pair in either order, and each member half of the time.
+    /// A coin publishes the same member of a pair in either order. Over many pairs, each member is published half of
+    /// the time.
     #[test]
     fn coins_are_fair_and_do_not_depend_on_the_order() {
         let of = |text: &str| Digest::of(text.as_bytes());
@@ -95,7 +95,7 @@ mod tests {
             assert_ne!(is_one, publishes_sibling(seed, other, one));
             published += u32::from(is_one);
         }
-        // The bounds are four standard deviations of a fair coin.
+        // The bounds allow a fair coin four standard deviations.
         assert!((437..=563).contains(&published), "{published}");
     }
 }

@@ -1,5 +1,5 @@
-//! Checks pairs after the reveal: the two members must differ only in permitted ways, and the published
-//! member must be the one that the coin chose.
+//! Checks of pairs after the reveal. The two members must differ only in permitted ways, and the published member
+//! must be the one that the coin chose.
 
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
@@ -37,8 +37,8 @@ impl SecretGame {
         Ok(SecretGame { game, levels })
     }
 
-    /// Returns a sentence about the problem with a published game's sibling: its rules or levels differ from
-    /// the game's, or the coin did not withhold it. `root` is the seed for the coins.
+    /// Returns a sentence about the problem with a published game's sibling. It is a problem if the rules or the
+    /// levels differ from the game's, or if the coin did not withhold the sibling. `root` is the seed for the coins.
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
@@ -47,7 +47,7 @@ impl SecretGame {
         if GameForm::of(published).digest() != GameForm::of(&self.game).digest() {
             return Some("the rules are not those of the game under different names".to_owned());
         }
-        // The states must be equal under a fixed seed.
+        // With the same fixed seed, the initial states must be equal.
         let start = |game: &Game, level: &Level| game.start(level, Seed::from_text("start")).state_hash();
         let differing = self.levels.len() != levels.len()
             || self
@@ -73,8 +73,7 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
     (!is_tossed).then(|| "the coin publishes this win: the other win should be withheld".to_owned())
 }
 
-/// Returns a sentence about the problem with a game's pairs in a job's result. `root` is the plan's root
-/// seed.
+/// Returns a sentence about the problem with a game's pairs in a job's result. `root` is the root seed of the plan.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {

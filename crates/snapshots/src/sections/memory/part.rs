@@ -11,9 +11,9 @@ base::with_defaults! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MemoryPart {
-        /// `true` for a second renaming of each game.
+        /// `true` to request a second renaming of each game.
         pub siblings: bool = true,
-        /// `true` for a second win of each level.
+        /// `true` to request a second win of each level.
         pub witnesses: bool = true,
     }
 }
@@ -44,7 +44,7 @@ impl MemoryPart {
     }
 }
 
-/// Returns `true` if the published coin wins can be revealed before a release's other withheld files.
+/// Returns `true` if the published coin wins of a release can be revealed before its other withheld files.
 pub(crate) fn has_second_wins(manifest: &Manifest) -> bool {
     manifest.kind == ReleaseKind::Sealed && MemoryPart::of(manifest).is_some_and(|part| part.witnesses)
 }

@@ -1,4 +1,4 @@
-//! The hooks for `[memory]`.
+//! The implementation of the hooks for `[memory]`.
 
 use super::pairs::shape_problem;
 use super::toss::toss;
@@ -59,7 +59,7 @@ impl Section for MemorySection {
         game: &mut FrozenGame,
     ) -> Result<Vec<NewFile>, SnapshotError> {
         let mut files = Vec::new();
-        // If one of two wins is withheld, the length of the shortest win would reveal which one was
+        // If one of two wins is withheld, stating the length of the shortest win would reveal which win was
         // published.
         for (level, second) in game.card.levels.iter_mut().zip(&game.seconds) {
             level.optimal_ticks = level.optimal_ticks.filter(|_| second.is_none());

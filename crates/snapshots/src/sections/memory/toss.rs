@@ -1,4 +1,4 @@
-//! Creates pairs and tosses their coins, when a game is minted.
+//! The creation of pairs and the tossing of their coins, which is part of minting a game.
 
 use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::sections::frozen::FrozenGame;
@@ -13,17 +13,17 @@ use forge::games::slug;
 use rayon::prelude::*;
 use validators::Criteria;
 
-/// The number of attempts at a second win, first with planners and then with systematic search.
+/// The number of attempts at a second win. In each attempt, planners search first, followed by a systematic search.
 const TRIES: u64 = 4;
-/// The maximum number of actions in a detour at the start of a deterministic level. The win search begins after
+/// The maximum number of actions in a detour at the start of a deterministic level. The search for a win begins after
 /// the detour.
 const DETOUR: usize = 6;
-/// The maximum number of renaming pairs to create in search of a pair with distinct themes.
+/// The maximum number of pairs of renamings to create in search of a pair with distinct themes.
 const THEME_TRIES: u64 = 16;
 
-/// Creates the pairs requested for a game, and publishes the member of each pair that the coin selects. A
-/// game without a second theme has no sibling, and a level without a second win has no pair. `criteria` are
-/// the criteria of the game's judges.
+/// Creates the pairs requested for a game, and publishes the member of each pair that the coin selects. A game
+/// without a second theme gets no sibling, and a level without a second win gets no pair. `criteria` are the criteria
+/// of the game's judges.
 ///
 /// Cost: up to [`TRIES`] attempts at a second win per level.
 pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
@@ -35,8 +35,8 @@ pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criter
     }
 }
 
-/// Replaces a game with one of two renamings, and stores the other as its sibling. Both are created from the
-/// game in the same way, so nothing published reveals which one was withheld.
+/// Replaces a game with one of two renamings, and stores the other as its sibling. Both renamings are created from
+/// the game in the same way, so nothing that is published reveals which one was withheld.
 fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
     let Ok(game) = Game::from_source(&frozen.text) else { return };
     let seed = root.child(&format!("siblings of {}", game.digest()), 0);
@@ -65,7 +65,7 @@ fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
         patterns.retain(|pattern| !["scene/", "fiction/"].iter().any(|kind| pattern.starts_with(kind)));
     }
     for (level, witness) in card.levels.iter_mut().zip(&witnesses) {
-        // A question is phrased in the names of the scene.
+        // The level's question is phrased in the names of the original scene, so it is dropped.
         (level.digest, level.asks) = (witness.level, None);
     }
     (frozen.text, frozen.levels, frozen.witnesses) = (published.text, published.levels, witnesses);
@@ -102,7 +102,7 @@ fn toss_wins(frozen: &mut FrozenGame, root: Seed, criteria: &Criteria) {
     }
 }
 
-/// Returns `true` if two wins begin differently, so that no player can begin like both of them.
+/// Returns `true` if two wins begin differently, so that no sequence of actions can begin like both.
 pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
     let common = PREFIX.min(one.len()).min(other.len());
     one[..common] != other[..common]

@@ -1,4 +1,4 @@
-//! Checks the games and wins that coins withheld: siblings of games, and second wins of levels.
+//! Checks of the games and wins that coins withheld, which are siblings of games and second wins of levels.
 
 use super::pairs::{SecretGame, pair_flaw};
 use super::part::MemoryPart;
@@ -10,8 +10,8 @@ use crate::format::witness::Witness;
 use crate::recipe::secret::UNRELATED_WITNESS;
 use crate::sections::section::{CheckedGame, Checking, Found};
 
-/// Checks a game's pairs in a sealed release. While files are still withheld, they only need to be listed
-/// completely.
+/// Checks a game's pairs in a sealed release. For files that are still withheld, checks only that all of them are
+/// listed.
 pub(super) fn check_pairs(
     release: &Checking<'_>,
     checked: &CheckedGame<'_>,

@@ -1,4 +1,4 @@
-//! Generates puzzles of every kind.
+//! The generation of puzzles of every kind.
 
 use super::PuzzleKind;
 use crate::recipe::Recipe;
@@ -11,7 +11,7 @@ use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
 
-/// The maximum number of fictions to draw for a puzzle, in search of one with the puzzle's theme.
+/// The maximum number of fictions to draw in search of one with the puzzle's theme.
 const FICTIONS: u64 = 400;
 
 /// A request for one puzzle.
@@ -23,8 +23,8 @@ pub(crate) struct Request {
     pub(crate) place: usize,
 }
 
-/// Generates a puzzle in a scene of its own, with levels from the lowest to the highest requested tier.
-/// `root` is the release's seed, and `seed` is the job's seed.
+/// Generates a puzzle in its own scene, with levels from the lowest to the highest requested tier. `root` is the
+/// release's seed, and `seed` is the job's seed.
 pub(crate) fn make(
     recipe: &Recipe,
     criteria: &CheckedCriteria,

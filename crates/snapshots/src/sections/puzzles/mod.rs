@@ -1,5 +1,5 @@
 //! The puzzle sections: pushing (`[puzzles]`), locks, yards, and pushing among strays. Levels are constructed
-//! backwards from their solutions, to meet the recipe's tiers.
+//! backwards from their solutions, so that they meet the recipe's tiers.
 
 mod make;
 mod section;
@@ -13,12 +13,12 @@ use generators::games::{LockRules, PushRules, YardRules};
 use serde::{Deserialize, Serialize};
 use validators::novelty::GameForm;
 
-/// The minimum side length of a puzzle.
+/// The minimum side length of a puzzle board.
 const LEAST_SIDE: usize = 8;
 
-/// The facts in which kinds of puzzles differ.
+/// The properties in which the kinds of puzzles differ.
 struct Facts {
-    /// The name used in jobs and seed steps.
+    /// The name used in job names and seed steps.
     name: &'static str,
     /// The noun for a game of this kind.
     noun: &'static str,
@@ -26,7 +26,7 @@ struct Facts {
     section: &'static str,
     /// The section's keys.
     keys: [&'static str; 7],
-    /// The number of rule sets of which no two are near each other.
+    /// The number of rule sets. No two of them are near each other.
     rules: usize,
     /// The maximum number of cells per board.
     cells: usize,
@@ -51,8 +51,8 @@ macro_rules! keys {
 }
 
 base::with_defaults! {
-    /// New puzzles: games that are won by pushing things, with levels constructed backwards from their solutions to
-    /// meet the recipe's tiers. The sections of locks, yards and strays use the same fields.
+    /// New puzzles, which are won by pushing things. Levels are constructed backwards from their solutions, so that
+    /// they meet the recipe's tiers. The sections of locks, yards and strays use the same fields.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PuzzlePart {
@@ -60,11 +60,11 @@ base::with_defaults! {
         pub games: u32 = 0,
         /// The number of levels per game.
         pub levels: u32 = 3,
-        /// The maximum number of attempts at a level for one position.
+        /// The maximum number of attempts to make the level for one position.
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The number of things to push in tiers 3 and 4, from 3 to 5. Only `[puzzles]` uses it.
+        /// The number of things to push in tiers 3 and 4, from 3 to 5. Only `[puzzles]` uses this field.
         pub things: u32 = 3,
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
@@ -136,7 +136,7 @@ impl PuzzleKind {
         }
     }
 
-    /// Returns the kind's name in jobs and seed steps.
+    /// Returns the kind's name in job names and seed steps.
     pub(crate) fn name(self) -> &'static str {
         self.facts().name
     }
@@ -151,7 +151,7 @@ impl PuzzleKind {
         self.facts().section
     }
 
-    /// Returns the number of rule sets of which no two are near each other.
+    /// Returns the number of rule sets. No two of them are near each other.
     pub(crate) fn rules(self) -> usize {
         self.facts().rules
     }
@@ -162,7 +162,7 @@ impl PuzzleKind {
         self.facts().seconds
     }
 
-    /// Returns a rule set without a theme, and the rule set's name.
+    /// Returns a rule set without a theme, with its name.
     fn plain(self, at: usize) -> (Game, String) {
         match self {
             PuzzleKind::Pushing => (PushRules::ALL[at].game(), PushRules::ALL[at].name()),
@@ -264,7 +264,7 @@ mod tests {
         check(&strays.replace("= 2", "= 12"), "`strays.games` is 12; the value must be from 1 to 10");
         let recipe = Recipe::from_toml(&format!("{puzzles}[tiers]\n3 = 0.5\n4 = 0.5")).unwrap();
         assert_eq!((recipe.games(), recipe.levels(), recipe.tiers.shares()), (2, 6, [0.0, 0.0, 0.5, 0.5]));
-        // Recipes without either section keep their bytes.
+        // Recipes without either section are serialised as before.
         let plain = serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap();
         assert!(["tiers", "puzzles", "locks", "yards", "strays"].iter().all(|key| plain.get(key).is_none()));
     }

@@ -1,4 +1,4 @@
-//! The hooks for the puzzle sections.
+//! The implementation of the hooks for the puzzle sections.
 
 use super::{PuzzleKind, PuzzlePart};
 use crate::recipe::Recipe;
@@ -18,7 +18,7 @@ impl Section for PuzzleKind {
     fn decide(&self, recipe: &Recipe, decisive: &mut Map<String, Value>) {
         let part = recipe.puzzles_of(*self);
         let decides = part.map(|part| (part.levels, part.level_tries, part.columns, part.rows));
-        // The key of the oldest section is always present.
+        // The key of the oldest section (`[puzzles]`) is always present.
         if decides.is_some() || *self == PuzzleKind::Pushing {
             decisive.insert(self.section().to_owned(), json!(decides));
         }

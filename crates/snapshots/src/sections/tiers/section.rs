@@ -1,4 +1,4 @@
-//! The hooks for `[tiers]`.
+//! The implementation of the hooks for `[tiers]`.
 
 use crate::recipe::Recipe;
 use crate::recipe::error::RecipeError;

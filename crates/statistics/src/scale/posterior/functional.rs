@@ -13,7 +13,7 @@ pub(in crate::scale) struct Functional {
 }
 
 impl Model<'_> {
-    /// Returns a functional whose value is always zero.
+    /// Returns the functional that is zero everywhere.
     fn nothing(&self) -> Functional {
         Functional {
             constant: 0.0,
@@ -76,7 +76,7 @@ impl Model<'_> {
         found
     }
 
-    /// Returns the functional for the planners' mean logit on all levels: the levels' ease for exactly these
+    /// Returns the functional for the planners' mean logit on all levels, which is the levels' ease for exactly these
     /// planners.
     pub(in crate::scale) fn planners_functional(&self, spreads: &Spreads) -> Functional {
         let mut found = self.nothing();

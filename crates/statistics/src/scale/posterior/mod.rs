@@ -1,7 +1,7 @@
 //! The model's mode and curvature for given spreads (Laplace's method).
 //!
-//! The effects of different games interact only through the few parameters shared by all games. Each step
-//! therefore costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
+//! The effects of different games interact only through a few parameters that all games share. Therefore, each step
+//! costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
 //!
 //! Game effects are measured in standard deviations, so that their prior is standard normal, and the spreads
 //! are part of the loadings. The model therefore stays well-defined as a spread approaches zero.
@@ -18,20 +18,20 @@ use super::spreads::Spreads;
 use arrayvec::ArrayVec;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// The precision of the prior for an ability, or for a month's shift. The prior is weak, but it keeps the
-/// estimate defined if all episodes are lost.
+/// The precision of the prior for an ability or a month's shift. The prior is weak, but it keeps the estimate defined
+/// if all episodes are lost.
 const FIXED_PRECISION: f64 = 1.0 / (5.0 * 5.0);
 /// The maximum number of Newton steps. Typically, 6 are needed, or 3 when starting from a nearby mode.
 const STEPS: usize = 100;
-/// The step length below which the mode counts as found. Newton's method converges quadratically.
+/// The step length below which the mode counts as found. Newton's method converges quadratically near the mode.
 const FOUND: f64 = 1e-5;
 /// The step length below which the expected values count as found. Steps to expected values converge only
 /// linearly.
 const FOUND_EXPECTED: f64 = 1e-6;
 /// The maximum number of steps to expected values. Typically, 15 to 60 are needed.
 const EXPECTED_STEPS: usize = 200;
-/// The fraction of each change in the variances that a step applies. Variances follow the means, so applying
-/// full changes can cause oscillation.
+/// The fraction of each change in the variances that a step applies. Variances depend on the means, so applying full
+/// changes can cause oscillation.
 const DAMPING: f64 = 0.7;
 /// The number of steps after which only half of the usual fraction is applied.
 const SETTLING: f64 = 50.0;
@@ -41,9 +41,9 @@ const LONGEST: f64 = 3.0;
 
 /// The results on some games, and the parameters shared by all games.
 ///
-/// If the abilities are unknown, they are the shared parameters. If they are known, the shared parameter is
-/// the shift in difficulty for planners. If readers played, a second shared parameter is the additional shift
-/// for readers, beyond the shift implied for them.
+/// If the abilities are unknown, they are the shared parameters. If they are known, the shared parameter is the shift
+/// in difficulty for planners. If readers played, there is a second shared parameter: the additional shift for
+/// readers, beyond the one implied by the shift for planners.
 pub(super) struct Model<'a> {
     pub(super) examinees: &'a [Examinee],
     pub(super) games: &'a [GamePlays],
@@ -56,12 +56,12 @@ pub(super) struct Model<'a> {
 struct Layout {
     size: usize,
     levels: usize,
-    /// The position of the first effect for readers (the game's effect). The levels' effects follow. Without
-    /// readers, these effects keep their prior distribution.
+    /// The position of the first effect for readers, which is the game's effect. The effects of the levels follow. If
+    /// no readers played, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The positions of two matches per examinee: the family's match, and the examinee's additional match. A
-    /// family's only member has only the first match, and a reader has only the second.
+    /// The positions of two matches per examinee: the family's match, and the examinee's own additional match. An
+    /// examinee that is the only member of its family has only the former, and a reader has only the latter.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 
@@ -94,7 +94,7 @@ impl<'a> Model<'a> {
         self.abilities.map_or(self.examinees.len(), |_| 1 + usize::from(self.has_readers))
     }
 
-    /// Returns the shared terms and the fixed part of an examinee's linear predictor.
+    /// Returns the shared terms of an examinee's linear predictor, and its fixed part.
     pub(super) fn shared_terms(&self, spreads: &Spreads, examinee: usize) -> (Terms, f64) {
         let Some(abilities) = self.abilities else { return (Terms::from_iter([(examinee, 1.0)]), 0.0) };
         let shift = self.shift_terms(spreads, self.examinees[examinee].dimension);
@@ -146,7 +146,7 @@ impl<'a> Model<'a> {
         terms
     }
 
-    /// Returns the mode and the curvature at the mode. `start` is a nearby mode, if known. Returns `None` if
+    /// Returns the mode and the curvature at the mode. `start` is a nearby mode, if one is known. Returns `None` if
     /// the mode cannot be computed.
     pub(super) fn posterior(&self, spreads: &Spreads, start: Option<&Modes>) -> Option<Posterior> {
         let rows: Vec<Vec<Row>> = (0..self.games.len()).map(|game| self.rows(spreads, game)).collect();
@@ -167,8 +167,8 @@ impl<'a> Model<'a> {
         Some(Posterior::new(modes, height - curvature.half_log_determinant(), curvature, &rows, None))
     }
 
-    /// Returns the normal distribution nearest to the posterior by relative entropy, given the spreads (J. T.
-    /// Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized linear mixed
+    /// Returns the normal distribution that is nearest to the posterior in relative entropy, for the given spreads
+    /// (J. T. Ormerod and M. P. Wand, "Gaussian variational approximate inference for generalized linear mixed
     /// models", 2012).
     ///
     /// The posterior is skewed, and its modes are biased towards the middle. The means of the normal
@@ -200,8 +200,8 @@ impl<'a> Model<'a> {
         None
     }
 
-    /// Takes a step that increases the log density, halving the step until it does. Returns the new modes,
-    /// their log density, and an upper bound on the step length.
+    /// Takes a step that increases the log density, and halves the step until it does. Returns the new modes, their
+    /// log density, and an upper bound on the step length.
     fn raised(
         &self,
         rows: &[Vec<Row>],
@@ -216,7 +216,7 @@ impl<'a> Model<'a> {
                 shared: &modes.shared + &shared * length,
                 games: modes.games.iter().zip(&games).map(|(at, step)| at + step * length).collect(),
             };
-            // Near the mode, the sum of thousands of terms is accurate only to within this tolerance.
+            // Near the mode, a sum of thousands of terms is accurate only to within this tolerance.
             let there = self.height(rows, &next, variances);
             if there >= height - 1e-10 * height.abs() {
                 return Some((next, there, longest * length));
@@ -347,7 +347,7 @@ impl Layout {
     }
 }
 
-/// An examinee's results on a level, with the terms of the linear predictor.
+/// An examinee's results on a level, with the terms of the linear predictor for this level.
 struct Row {
     examinee: usize,
     level: usize,
@@ -383,8 +383,8 @@ pub(super) struct Modes {
     pub(super) games: Vec<DVector<f64>>,
 }
 
-/// The factored negative second derivatives, and the gradient with respect to the shared parameters. The game
-/// effects are eliminated.
+/// The negative second derivatives in factored form, and the gradient with respect to the shared parameters. The game
+/// effects have been eliminated.
 struct Curvature {
     schur: Cholesky<f64, Dyn>,
     gradient: DVector<f64>,
@@ -392,16 +392,16 @@ struct Curvature {
 }
 
 struct GameCurvature {
-    /// The factored block of second derivatives for the game's own effects.
+    /// The block of second derivatives for the game's own effects, in factored form.
     within: Cholesky<f64, Dyn>,
-    /// The block between the game's effects and the shared parameters, by column. This block and the gradient
-    /// are already divided by the triangle of `within`.
+    /// The block between the game's effects and the shared parameters, by column. This block and `slope` have already
+    /// been divided by the triangle of `within`.
     cross: DMatrix<f64>,
     slope: DVector<f64>,
 }
 
 impl GameCurvature {
-    /// Divides a game's effects by the transposed triangle of `within`, which completes a solution.
+    /// Divides a vector of the game's effects by the transposed triangle of `within`, which completes a solution.
     fn divided(&self, mut half: DVector<f64>) -> DVector<f64> {
         self.within.l_dirty().tr_solve_lower_triangular_unchecked_mut(&mut half);
         half
@@ -423,7 +423,7 @@ impl Curvature {
         (shared, games)
     }
 
-    /// Returns the variances of the linear predictors for given shared parameters.
+    /// Returns the variances of the linear predictors, given the shared parameters.
     fn variances(&self, rows: &[Vec<Row>]) -> Vec<Vec<f64>> {
         let of_game = |(game, rows): (&GameCurvature, &Vec<Row>)| {
             let inverse = game.within.inverse();
@@ -436,7 +436,7 @@ impl Curvature {
         self.games.iter().zip(rows).map(of_game).collect()
     }
 
-    /// Returns half the logarithm of the matrix's determinant.
+    /// Returns half the logarithm of the determinant of the whole matrix.
     fn half_log_determinant(&self) -> f64 {
         let of = |factor: &Cholesky<f64, Dyn>| {
             let factor = factor.l_dirty();
@@ -456,7 +456,7 @@ pub(super) struct Posterior {
     gains: Vec<DMatrix<f64>>,
     /// The covariance matrix of the shared parameters.
     pub(super) covariance: DMatrix<f64>,
-    /// Each row's expected weight and terms, by game. Empty if the distribution is at a mode.
+    /// The expected weight and the terms of each row, by game. Empty if the distribution is centred on a mode.
     weights: Vec<Vec<(usize, f64, Terms, Terms)>>,
 }
 
@@ -487,8 +487,8 @@ impl Posterior {
         functional.constant + functional.shared.dot(&self.modes.shared) + games.sum::<f64>()
     }
 
-    /// Returns a functional's gradient with respect to the shared parameters, including the influence of
-    /// these parameters on the game effects.
+    /// Returns a functional's gradient with respect to the shared parameters, including the effect of these
+    /// parameters on the game effects.
     fn slope(&self, functional: &Functional) -> DVector<f64> {
         let mut slope = functional.shared.clone();
         for (gain, terms) in self.gains.iter().zip(&functional.games) {
@@ -497,8 +497,8 @@ impl Posterior {
         slope
     }
 
-    /// Returns two components of the covariance between two functionals. The first component comes from the
-    /// shared parameters, and the second from the games, given the shared parameters.
+    /// Returns the covariance between two functionals as two components. The first component comes from the shared
+    /// parameters, and the second from the games, given the shared parameters.
     pub(super) fn covariance(&self, one: &Functional, other: &Functional) -> (f64, f64) {
         let (left, right) = (self.slope(one), self.slope(other));
         let shared = left.dot(&(&self.covariance * right));
@@ -507,14 +507,14 @@ impl Posterior {
         (shared, within.map(|(game, (left, right))| left.dot(&game.within.solve(right))).sum())
     }
 
-    /// Returns the covariance matrix of a game's functionals for given shared parameters.
+    /// Returns the covariance matrix of a game's functionals, given the shared parameters.
     pub(super) fn within_game(&self, game: usize, functionals: &[Functional]) -> DMatrix<f64> {
         let columns: Vec<DVector<f64>> = functionals.iter().map(|one| one.games[game].clone()).collect();
         let terms = DMatrix::from_columns(&columns);
         terms.tr_mul(&self.curvature.games[game].within.solve(&terms))
     }
 
-    /// Returns a functional's change per unit increase in each examinee's fixed ability.
+    /// Returns the change in a functional per unit increase in the fixed ability of each examinee.
     pub(super) fn sensitivity(&self, functional: &Functional, examinees: usize) -> Vec<f64> {
         let shared = &self.covariance * self.slope(functional);
         let mut moves = vec![0.0; examinees];

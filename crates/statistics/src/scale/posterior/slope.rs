@@ -1,6 +1,6 @@
-//! The derivatives of the marginal likelihood with respect to the spreads' parameters. Each derivative
-//! requires one pass over the results. The adjoint method, which solves one linear system for all parameters,
-//! accounts for how the modes depend on the spreads.
+//! The derivatives of the marginal likelihood with respect to the parameters of the spreads. Each derivative requires
+//! one pass over the results. The dependence of the modes on the spreads is handled by the adjoint method, which
+//! solves one linear system for all parameters.
 
 use super::{Model, Posterior};
 use crate::scale::logistic::logistic;
@@ -9,7 +9,7 @@ use crate::scale::spreads::{PLANNERS_ONLY, Spreads, WITH_READERS};
 use arrayvec::ArrayVec;
 use nalgebra::{DMatrix, DVector};
 
-/// The values at the mode for one examinee's results on a level.
+/// Values for one examinee's results on a level, evaluated at the mode.
 struct Place {
     rest: f64,
     weight: f64,
@@ -20,8 +20,8 @@ struct Place {
 }
 
 impl Model<'_> {
-    /// Returns the derivatives of the marginal likelihood with respect to the spreads' parameters, at a mode
-    /// of a model with unknown abilities. Cost: about one step to the mode.
+    /// Returns the derivatives of the marginal likelihood with respect to the parameters of the spreads. They are
+    /// evaluated at a mode of a model with unknown abilities. Cost: about one step towards the mode.
     pub(in crate::scale) fn slope(&self, spreads: &Spreads, posterior: &Posterior) -> Vec<f64> {
         let shared = &posterior.modes.shared;
         let mut pull = DVector::<f64>::zeros(shared.len());

@@ -1,5 +1,5 @@
-//! drand networks. In each round, a threshold number of a network's members sign with BLS signatures on the
-//! curve BLS12-381.
+//! drand networks. In each round, at least a threshold number of a network's members sign together, with BLS
+//! signatures on the curve BLS12-381.
 //!
 //! A network is identified by its chain hash, which covers its public key. This module names two networks.
 //! Any other network is identified by its chain hash, so that a commitment to the source fixes the key.
@@ -112,7 +112,7 @@ pub(super) fn named(source: &str) -> Result<Option<Network>, String> {
     }
     let hash = source.strip_prefix("drand ").and_then(|hash| hash.parse().ok());
     if let Some(known) = KNOWN.iter().find(|known| source.strip_prefix("drand ") == Some(known.hash)) {
-        // Each network has only one accepted name, so that no round is awaited twice.
+        // Each network has only one accepted name, so that the same round cannot be awaited under two names.
         return Err(format!("`{source}` is the network `{}`: write that name instead", known.name));
     }
     hash.map(|hash| Some(Network::Hash(hash))).ok_or_else(|| {

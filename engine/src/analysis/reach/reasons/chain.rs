@@ -31,8 +31,8 @@ pub struct Chain {
 pub struct Obstacle {
     /// The sprite that the rule would remove, or the type that the rule would create.
     pub target: SpriteType,
-    /// The index of the rule in [`Description::interactions`](crate::Description), or `None` if a sprite
-    /// creates the type by itself.
+    /// The index of the rule in [`Description::interactions`](crate::Description), or `None` if sprites
+    /// create the type on their own.
     pub line: Option<usize>,
     /// The missing requirement.
     pub missing: Missing,
@@ -65,7 +65,7 @@ pub enum Missing {
 pub struct Shortage {
     /// The resource.
     pub resource: SpriteType,
-    /// The amount required at the same time.
+    /// The amount that must be held at once.
     pub needed: i32,
     /// The maximum amount that one sprite can hold, if this maximum is already too small.
     pub capacity: Option<i32>,
@@ -150,7 +150,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chains { analysis, events, gifts }
     }
 
-    /// Returns the chain of causes for a termination that, for this cause, can never hold.
+    /// Returns the chain of causes for a termination that can never hold for this reason.
     pub(crate) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
         let mut reported = Vec::new();
         let obstacles = match &cause {
@@ -301,7 +301,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Some(Missing::Blocked(other, lines.first().copied()?))
     }
 
-    /// Returns the reason why no more of a resource is obtainable.
+    /// Returns the reason why the needed amount of a resource cannot be obtained.
     fn shortage(&self, resource: SpriteType, needed: i32, reported: &mut Reported) -> Shortage {
         let model = self.events.flood.model;
         let rules = &*self.analysis.game().0;
@@ -329,7 +329,7 @@ impl<'a, 'e> Chains<'a, 'e> {
                         .gifts
                         .get(&(resource, stype))
                         .is_some_and(|gift| !model.of_type(stype).fixed || gift.cells.contains(cell));
-                    // If both sprites have the same type, it is unclear which sprite has to come.
+                    // If both sprites have the same type, it is unclear which sprite has to move.
                     if !got && self.analysis.applies(taker, stype) {
                         continue;
                     }
@@ -374,8 +374,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         Unreachable { stype, cell, blockers: blockers.collect() }
     }
 
-    /// Returns the removable sprites on paths to a cell that are adjacent to cells that sprites of a type can
-    /// reach. Each comes with its cell. Paths go from a cell to its four neighbours.
+    /// Returns the removable sprites that lie on a path to a cell and next to a cell that sprites of a type
+    /// can reach. Each sprite is paired with its cell. Paths go from a cell to its four neighbours.
     fn in_the_way(&self, stype: SpriteType, target: usize) -> Vec<(SpriteType, usize)> {
         let (board, rules) = (self.events.board(), &*self.analysis.game().0);
         let family: Vec<SpriteType> = rules.types[stype.index()].tree.to_vec();

@@ -11,7 +11,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Ending, Movement, Target};
 use std::collections::BTreeSet;
 
-/// A way to remove a sprite at the cost of a resource, which the other sprite loses.
+/// A removal that costs the other sprite some of a resource.
 struct Payment {
     resource: SpriteType,
     each: i64,
@@ -138,7 +138,8 @@ impl Analysis {
                 taking: encounter.line,
             });
         }
-        // The next rule for the two sprites takes the resource, in the same tick, as long as they still touch.
+        // In the same tick, the next rule for the two sprites takes the resource, provided that they still
+        // touch.
         let takes = |later: &Encounter| {
             let by = taken(later, Side::First)?;
             let second = later.second?;

@@ -1,4 +1,4 @@
-//! Furnishing for levels that the avatar walks through, with exits, keys, goods and dangers.
+//! Furnishing of levels that the avatar walks through, with exits, keys, goods and dangers.
 
 use crate::levels::construct::builder::{Builder, back};
 use crate::levels::construct::plan;
@@ -8,7 +8,7 @@ use engine::analysis::{Key, Motion, Role};
 use engine::{Direction, SpriteType};
 
 impl Builder<'_> {
-    /// Furnishes a board that has only walls.
+    /// Furnishes a board that contains only walls.
     pub(crate) fn adventure(&mut self) {
         let start = self.choose_start();
         self.put_avatar(start);
@@ -16,7 +16,7 @@ impl Builder<'_> {
         self.furnish(&gates);
     }
 
-    /// Places everything except the avatar, the gates and the already placed types.
+    /// Places everything except the avatar, the gates and the types that have already been placed.
     pub(crate) fn furnish(&mut self, gates: &[SpriteType]) {
         let wishes = self.wishes();
         let done: Vec<SpriteType> = self.log.iter().map(|(_, stype)| *stype).collect();
@@ -71,7 +71,7 @@ impl Builder<'_> {
                 if beside(builder, cell) != grouped {
                     0
                 } else if grouped {
-                    // For groups, the distances of the role apply to the whole group.
+                    // The role's distances apply to a group as a whole, so further members need not keep them.
                     let from_start = builder.board.grid.manhattan(cell, builder.board.start);
                     u32::from(steps[cell] != FAR && from_start > 2 && !builder.cuts(cell, stype))
                 } else {
@@ -95,8 +95,8 @@ impl Builder<'_> {
         })
     }
 
-    /// Returns the weight of the footing. If avatars fall, most sprites stand on the ground, but goods may hang in the
-    /// air.
+    /// Returns the weight of a cell's footing. If the avatar falls, most sprites stand on the ground, but goods may
+    /// hang in the air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
             _ if !self.avatar_falls() => 1,
@@ -120,8 +120,8 @@ impl Builder<'_> {
         let walls = self.board.walls_around(cell) as u32;
         match role {
             Role::Exit => {
-                // The cell is behind the first gate if there is a gate. Otherwise it is far away, and farther at higher
-                // difficulty.
+                // If there is a gate, the cell is behind the first one. Otherwise, it is far away, and farther at
+                // higher difficulty.
                 let wanted = u8::from(self.board.zone.contains(&1));
                 let far = share >= 55 + (30.0 * self.difficulty()) as u32;
                 if zone != wanted || !(far || zone > 0) { 0 } else { (1 + walls) * share / 10 }
@@ -138,7 +138,7 @@ impl Builder<'_> {
             Role::Prey => own_kind * (2 + share / 20),
             Role::Spawner => self.weigh_spawner(cell, stype, walls),
             Role::Hazard if from_start < 3 || self.apart_from(cell, Role::Exit) < 2 => 0,
-            // Deadly things that spawn deadly things keep a distance from each other.
+            // Deadly things that spawn deadly things keep their distance from the avatar's start.
             Role::Hazard
                 if self.target.is_some()
                     && self.analysis.makes_harm(stype)
@@ -160,7 +160,7 @@ impl Builder<'_> {
                 }
             }
             Role::Boulder => u32::from(own_kind > 0),
-            // Place wards close to each other, so that there is room for the things that threaten them.
+            // Place wards close together, so that there is room for the things that threaten them.
             Role::Ward => 1 + 12 / (1 + own_kind),
             Role::Pushable | Role::Socket if walls == 0 && from_start > 1 => own_kind,
             Role::Pushable | Role::Socket => 0,
@@ -197,7 +197,8 @@ impl Builder<'_> {
         self.apart(cell, hunted) < self.min_distance(stype).max(4)
     }
 
-    /// Returns a cell's weight for a mover. The mover needs room to move, and must not move straight at the avatar.
+    /// Returns the weight of a cell for a mover. The mover needs room to move, and must not head straight for the
+    /// avatar.
     fn weigh_mover(&self, cell: usize, stype: SpriteType, share: u32) -> u32 {
         let others = self.apart_from(cell, Role::Enemy).min(6) as u32;
         let spread = 1 + others + share / 20;
@@ -215,8 +216,8 @@ impl Builder<'_> {
         if lane { 0 } else { spread * room.min(12) as u32 }
     }
 
-    /// Returns a cell's weight for a spawner. Suitable cells are at a wall or an edge, with a free line of fire that
-    /// does not meet the avatar.
+    /// Returns the weight of a cell for a spawner. Good cells are next to a wall or the board edge, with a free line of
+    /// fire that does not hit the avatar.
     fn weigh_spawner(&self, cell: usize, stype: SpriteType, walls: u32) -> u32 {
         let from_start = self.board.grid.manhattan(cell, self.board.start);
         let others = self.apart_from(cell, Role::Spawner).min(8) as u32;
@@ -241,14 +242,14 @@ impl Builder<'_> {
         made.max().unwrap_or(2).max(4)
     }
 
-    /// Returns the number of sprites of a type in the eight cells surrounding a cell.
+    /// Returns the number of sprites of a type in the eight cells around a cell.
     fn crowd(&self, cell: usize, stype: SpriteType) -> usize {
         let around = self.board.grid.around(cell).into_iter().flatten();
         around.filter(|&next| self.log.contains(&(next, stype))).count()
     }
 
-    /// Chooses the avatar's start. The start is near an end of the longest path, or in the middle if survival is the
-    /// aim.
+    /// Chooses the avatar's start. The start is near an end of a longest path, or in the middle if the aim is to
+    /// survive.
     fn choose_start(&mut self) -> usize {
         let grid = self.board.grid;
         let cells: Vec<usize> = self.board.free().collect();
@@ -272,8 +273,8 @@ impl Builder<'_> {
             let far = cells.iter().copied().max_by_key(|&cell| (steps[cell], cell));
             far.unwrap_or(some)
         };
-        // The start is near the end of the path, but not always exactly at the end. If avatars fall, the start is on
-        // the ground.
+        // The start is near the end of the path, but not always exactly at the end. If the avatar falls, the start is
+        // on the ground.
         let grounded = |cell: &usize| !self.avatar_falls() || self.has_footing(*cell);
         let near = |cell: &usize| grid.manhattan(*cell, target) <= 1;
         let close: Vec<usize> = cells.iter().copied().filter(|cell| near(cell) && grounded(cell)).collect();
@@ -285,12 +286,12 @@ impl Builder<'_> {
         best.unwrap_or(some)
     }
 
-    /// Places the keys required by the placed locks, each in front of its lock.
+    /// Places the keys that the placed locks require, each in front of its lock.
     pub(crate) fn keys(&mut self, gates: &[SpriteType]) {
         let placed = self.log.iter().map(|(_, stype)| *stype);
         let exits: Vec<SpriteType> = placed.filter(|&stype| self.role(stype) == Role::Exit).collect();
         let keyed = plan::furnishable(self.analysis, self.palette, Role::Key);
-        // Keys that are themselves locked, and things that are opened from afar, also count as locked things.
+        // Keys that are themselves locked, and spawners with a lock, also count as locked things.
         let chained: Vec<SpriteType> = self
             .analysis
             .locks()
@@ -350,7 +351,7 @@ impl Builder<'_> {
     fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
-        // The zones of the gates that this key opens, which are numbered in the order of placement.
+        // The zones behind the gates that this key opens. Zones are numbered in the order of placement.
         let own = self.log.iter().filter_map(|&(cell, stype)| {
             let opened = self.lock_of(stype)?.givers.iter().any(|(key, _)| *key == giver);
             (opened && self.role(stype) == Role::Gate).then_some(self.board.zone[cell])
@@ -358,7 +359,7 @@ impl Builder<'_> {
         let first = own.min().unwrap_or(u8::MAX);
         self.put_where(giver, |builder, cell| {
             let zone = builder.board.zone[cell];
-            // The key of a gate may lie behind a gate that was placed later, but not behind one that was placed
+            // The key to a gate may lie behind a gate that was placed later, but not behind one that was placed
             // earlier.
             let before = zone == 0 || (zone > first && first != u8::MAX);
             let weight = builder.weigh(cell, giver, Role::Key, &steps, radius);
@@ -405,8 +406,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places refills for a resource drained by the ground, densely enough that no path between refills is longer than
-    /// the supply.
+    /// Places refills for a resource that the ground drains. They are dense enough that no path between two refills is
+    /// longer than the supply lasts.
     fn fuel(&mut self) {
         let Some(start) = self.analysis.start_avatar() else { return };
         for resource in self.analysis.resources() {
@@ -473,7 +474,7 @@ impl Builder<'_> {
                 self.put(cell, stype);
             }
         }
-        // At the start, nothing hangs above the avatar or without support.
+        // At the start, no sprite hangs above the avatar or without support.
         let avatar_falls: Vec<usize> = self
             .log
             .iter()

@@ -1,4 +1,4 @@
-//! Adjusts a furnished board to the requested cover.
+//! Adjustment of a furnished board to the requested cover.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::examples::is_cover;
@@ -6,9 +6,9 @@ use crate::levels::grid::FAR;
 use engine::analysis::{Role, Steering};
 
 impl Builder<'_> {
-    /// Adds walls (or other sprites, on boards without walls) until enough cells are covered, or removes some until
-    /// few enough are. Everything required by the game is preserved, and nothing is cut off, so the requested cover is
-    /// not always reached.
+    /// Adds walls (or other sprites, on boards without walls) until enough cells are covered, or removes some until no
+    /// more than requested are. All sprites that the game requires are preserved, and no cell is cut off, so the
+    /// requested cover is not always reached.
     pub(crate) fn adjust_cover(&mut self) {
         let Some((low, high)) = self.config.cover else { return };
         if is_cover(self.analysis, self.palette.base) {
@@ -40,19 +40,19 @@ impl Builder<'_> {
 
     /// Adds a wall or a sprite. Returns `true` if there was room.
     fn add_cover(&mut self) -> bool {
-        // Add walls while there are fewer than in the examples, then other things, then walls again.
+        // Add walls while there are fewer than in the examples, then other things, and finally walls again.
         let missing = self.target.as_ref().is_none_or(|target| self.inner_walls() < target.walls);
         missing && self.add_wall() || self.add_thing() || !missing && self.add_wall()
     }
 
-    /// Returns the fraction of walls among the cells inside the border.
+    /// Returns the fraction of the cells inside the border that are walls.
     fn inner_walls(&self) -> f64 {
         let grid = self.board.grid;
         let inner = || (0..grid.len()).filter(|&cell| !grid.on_border(cell));
         inner().filter(|&cell| self.board.wall[cell]).count() as f64 / inner().count().max(1) as f64
     }
 
-    /// Adds a wall without cutting off cells. Returns `true` if there was room.
+    /// Adds a wall without cutting off any cells. Returns `true` if there was room.
     fn add_wall(&mut self) -> bool {
         let grid = self.board.grid;
         let bare = self.target.as_ref().is_some_and(|target| target.walls <= 0.0);
@@ -63,7 +63,7 @@ impl Builder<'_> {
                 let near = grid.manhattan(cell, self.board.start) < 2 || self.is_on_line(cell);
                 let busy = grid.beside(cell).any(|next| self.board.placed[next].is_some());
                 let cut = near || busy || self.board.would_cut(self.palette, cell);
-                // Walls grow from walls, filling niches first.
+                // Walls grow from existing walls and fill niches first.
                 let walls = self.board.walls_around(cell);
                 match walls {
                     _ if cut || steps[cell] == FAR => 0,
@@ -143,8 +143,8 @@ impl Builder<'_> {
                 grid.beside(cell).any(|next| !self.board.wall[next] && self.board.placed[next].is_none())
             })
             .collect();
-        // In games with gates, walls stay, because openings could bypass the gates. In other games, only the ends of
-        // walls are removed.
+        // On boards with gates, all walls stay, because an opening could bypass a gate. On other boards, only the ends
+        // of walls are removed.
         let open_up = !walls.is_empty() && (things.is_empty() || self.sampler.ratio(2, 3));
         if open_up && !self.board.zone.iter().any(|&zone| zone > 0) {
             let cell = *self.sampler.choose(&walls);

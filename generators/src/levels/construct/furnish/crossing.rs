@@ -1,4 +1,4 @@
-//! Furnishing of crossings: the avatar starts at the bottom, its goal is at the top, and in between traffic runs in
+//! Furnishing of crossings. The avatar starts at the bottom, its goal is at the top, and traffic runs between them in
 //! lanes from edge to edge.
 
 use crate::levels::construct::builder::{Builder, way};
@@ -27,9 +27,9 @@ pub(crate) struct Traffic {
     pub(crate) wraps: bool,
 }
 
-/// Returns the enemies that drive left or right, if their traffic makes the game a crossing. Traffic makes a crossing
-/// if the enemies wrap around to the other side or, in a game with an exit, if they turn at walls and drive in both
-/// directions.
+/// Returns the enemies that drive left or right, if their traffic makes the game a crossing. That is the case if the
+/// enemies wrap around to the other side. It is also the case in a game with an exit if the enemies turn at walls and
+/// drive in both directions.
 pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic> {
     let enemies = plan::furnishable(analysis, palette, Role::Enemy);
     let sideways = |stype: &SpriteType| match analysis.facts(*stype).motion {
@@ -74,8 +74,8 @@ impl Builder<'_> {
         rows
     }
 
-    /// Returns the walls above and below the board, at the sides of verges, and at the sides of lanes with turning
-    /// traffic.
+    /// Returns the walls at the top and the bottom of the board, at the sides of verges, and at the sides of lanes in
+    /// which traffic turns.
     pub(crate) fn lane_walls(grid: Grid, rows: &[Row], ring: bool, traffic: &Traffic) -> Vec<bool> {
         let side = |cell: usize| grid.x(cell) == 0 || grid.x(cell) + 1 == grid.columns;
         let wall = |cell: usize| match rows[grid.y(cell)] {
@@ -96,7 +96,7 @@ impl Builder<'_> {
         self.put_avatar(start);
         let in_row = |row: usize| (0..grid.columns).map(move |x| grid.at(x, row));
         for exit in plan::furnishable(self.analysis, self.palette, Role::Exit) {
-            // The exit is preferably not straight ahead of the start.
+            // Prefer exits that are not straight ahead of the start.
             self.put_where(exit, |builder, cell| {
                 let aside = grid.x(cell).abs_diff(grid.x(builder.board.start)) as u32;
                 if in_row(top).any(|other| other == cell) { 1 + aside * aside } else { 0 }
@@ -107,7 +107,7 @@ impl Builder<'_> {
                 self.drive(row, stype);
             }
         }
-        // Other things lie on verges. Collectables also lie on lanes. Other traffic is left out.
+        // Other things lie on verges, and collectables also in lanes. Other traffic is omitted.
         let lanes: Vec<usize> =
             (0..grid.len()).filter(|&cell| matches!(rows[grid.y(cell)], Row::Lane(_))).collect();
         for &cell in &lanes {

@@ -1,4 +1,4 @@
-//! The layout of an open field for an avatar that moves along one edge, with enemies on the far side and cover in
+//! Furnishing of an open field for an avatar that moves along one edge, with enemies on the far side and cover in
 //! between.
 
 use crate::levels::construct::builder::Builder;
@@ -6,8 +6,8 @@ use crate::levels::construct::plan::Wish;
 use engine::SpriteType;
 use engine::analysis::{Motion, Role, Steering};
 
-/// A field from the avatar's point of view. `along` is the position on the avatar's line of movement, and `deep` is the
-/// row counted from the far side.
+/// A field from the avatar's point of view. In coordinates, `along` is the position on the avatar's line of movement,
+/// and `deep` is the row counted from the far side.
 struct Field {
     upright: bool,
     edge: usize,
@@ -101,7 +101,7 @@ impl Builder<'_> {
         let mut offset = self.sampler.below(pitch);
         let thick = if left > field.length { 2 } else { 1 };
         if self.target.is_some() {
-            // Bases are placed from the middle to both sides, with a base or a gap in the middle, so that the bases are
+            // Bases are placed from the middle towards both sides, with a base or a gap in the middle, so that they are
             // never all on one side.
             let middle = if self.sampler.ratio(1, 2) { width / 2 } else { (width + pitch) / 2 };
             offset = (middle + pitch * field.length - (field.length - 1) / 2) % pitch;
@@ -132,7 +132,7 @@ impl Builder<'_> {
         };
         let ranks: Vec<usize> = (0..deepest).filter(|&deep| !taken(self, deep)).collect();
         let rank = if ranks.is_empty() { self.sampler.below(deepest) } else { *self.sampler.choose(&ranks) };
-        // A rank keeps enough room to move.
+        // A rank leaves enough room to move.
         let fits = (field.length / 3).max(1);
         let mut left = wish.count;
         let mut deep = rank;
@@ -176,7 +176,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places all other sprites. Stationary sprites that the avatar must touch go on its line, and the rest in between.
+    /// Places all other sprites. Stationary sprites that the avatar must touch are placed on its line, and the rest in
+    /// the area between.
     fn somewhere(&mut self, field: &Field, wish: Wish, home: usize) {
         let touched = matches!(
             wish.role,

@@ -1,5 +1,5 @@
-//! Levels with pushable objects, constructed backwards. From the solved state, the avatar pulls the objects away
-//! from their destinations, so that pushing them back is a solution.
+//! Backward construction of levels with pushable objects. Starting from the solved state, the avatar pulls the objects
+//! away from their destinations, so that pushing them back is a solution.
 
 use crate::levels::construct::jobs::{Job, Jobs};
 use crate::levels::grid::{FAR, Grid, WAYS};
@@ -7,25 +7,25 @@ use base::Sampler;
 use engine::SpriteType;
 use std::collections::VecDeque;
 
-/// A push that moves a cell's object by one step.
+/// A push that moves the object in a cell by one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Push {
     pub(crate) from: usize,
     pub(crate) way: (i32, i32),
 }
 
-/// A floor plan with pushable objects, in the state before the pushes found so far.
+/// A floor plan with pushable objects. The state is the one before the pushes found so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulls {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
     /// The pushable object in each cell; `None` for cells without one.
     pub(crate) things: Vec<Option<SpriteType>>,
-    /// The job partner in each cell, with `true` if the avatar can currently walk into the cell.
+    /// The partner of a job in each cell, with `true` if the avatar can currently enter the cell.
     pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
     /// For each cell, `true` if pushing objects into it is forbidden.
     pub(crate) barred: Vec<bool>,
-    /// For each cell, `true` if the avatar cannot walk into it.
+    /// For each cell, `true` if the avatar cannot enter it.
     pub(crate) closed: Vec<bool>,
     /// The avatar's cell; `None` if the avatar may be anywhere.
     pub(crate) avatar: Option<usize>,
@@ -40,9 +40,9 @@ struct Node {
     avatar: usize,
     /// The number of pulls so far.
     depth: usize,
-    /// The index of the preceding node.
+    /// The index of the node before this pull.
     before: usize,
-    /// The number of cells within the avatar's reach.
+    /// The number of cells that the avatar can reach.
     room: usize,
 }
 
@@ -73,7 +73,7 @@ impl Pulls {
         free && self.things[cell].is_none() && self.partners[cell].is_none()
     }
 
-    /// Returns the distances, in steps, of all cells from the avatar. Unreachable cells have the distance [`FAR`].
+    /// Returns the number of steps from the avatar to each cell, or [`FAR`] for unreachable cells.
     pub(crate) fn reachable(&self) -> Vec<u32> {
         match self.avatar {
             Some(cell) => self.grid.flood(&[cell], |next| self.stands(next)),
@@ -81,7 +81,8 @@ impl Pulls {
         }
     }
 
-    /// Undoes a job's last push onto the partner at `cell`, and moves the object away by about `pulls` pulls.
+    /// Undoes the last push of a job, which moved an object onto the partner at `cell`. Then pulls the object away by
+    /// about `pulls` pulls.
     pub(crate) fn undo(&mut self, job: &Job, cell: usize, pulls: usize, sampler: &mut Sampler) -> Option<()> {
         let reachable = self.reachable();
         let reaches = |cell: usize| reachable[cell] != FAR;
@@ -114,7 +115,7 @@ impl Pulls {
         Some(())
     }
 
-    /// Pulls a cell's object to a position about `pulls` pulls away, or as far as possible.
+    /// Pulls the object in a cell to a position about `pulls` pulls away, or as far as possible.
     pub(crate) fn pull(&mut self, from: usize, pulls: usize, sampler: &mut Sampler) {
         let Some(stype) = self.things[from] else { return };
         let Some(first) = self.avatar else { return };
@@ -140,8 +141,7 @@ impl Pulls {
             self.things[thing] = None;
             self.things[from] = Some(stype);
         }
-        // Avoid states in which the avatar is locked in, because there may be more to pull, and levels start in the
-        // open.
+        // Avoid states in which the avatar is confined, because it may have more to pull and levels start in the open.
         let widest = nodes.iter().map(|node| node.room).max().unwrap_or(0);
         let wide = |node: &Node| node.room * 2 >= widest;
         let deepest = nodes.iter().filter(|node| wide(node)).map(|node| node.depth).max().unwrap_or(0);
@@ -163,7 +163,7 @@ impl Pulls {
         self.avatar = Some(end.avatar);
     }
 
-    /// Walks the avatar backwards to a cell, sometimes pulling the object directly behind it.
+    /// Walks the avatar backwards to a cell, so that it sometimes pulls an adjacent object along.
     pub(crate) fn wander(&mut self, to: usize, eager: usize, sampler: &mut Sampler) {
         for _ in 0..self.grid.len() {
             let Some(at) = self.avatar.filter(|&at| at != to) else { return };
@@ -181,8 +181,8 @@ impl Pulls {
         }
     }
 
-    /// Returns the avatar's steps, beginning at `start`, for the pushes and then for visiting the cells in `visits`
-    /// in turn. Returns `None` if the pushes do not work.
+    /// Returns the avatar's steps from `start` that carry out the pushes and then visit the cells in `visits` in turn.
+    /// Returns `None` if the pushes do not work.
     pub(crate) fn solution(
         &self,
         plan: &Jobs,
@@ -216,7 +216,7 @@ impl Pulls {
             ways.push(push.way);
             avatar = push.from;
         }
-        // A door opens with the last job, and a gate after the visits to its keys.
+        // A door opens with the last job, and a gate opens after the visits to its keys.
         let mut opened = plan.keys == 0 && done == plan.jobs.len();
         for (at, &cell) in visits.iter().enumerate() {
             opened |= plan.keys > 0 && at >= plan.keys;

@@ -1,4 +1,4 @@
-//! Locks and keys: a gate in a bottleneck guards the cells behind it, and the gate's key lies in front.
+//! Locks and keys. A gate in a bottleneck guards the cells behind it, and the key to the gate lies in front of it.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::construct::plan::furnishable;
@@ -13,8 +13,8 @@ pub(crate) struct Bottleneck {
 }
 
 impl Builder<'_> {
-    /// Places gates in bottlenecks of the still open area, and numbers the zones behind the gates from 1 in that
-    /// order. A gate's key may lie behind a gate with a higher number. Returns the placed types.
+    /// Places gates in bottlenecks of the area that is still open, and numbers the zones behind them from 1 in that
+    /// order. The key to a gate may lie behind a gate with a higher number. Returns the placed types.
     pub(crate) fn gates(&mut self) -> Vec<SpriteType> {
         let mut types: Vec<SpriteType> = furnishable(self.analysis, self.palette, Role::Gate);
         types.retain(|&stype| {
@@ -46,8 +46,8 @@ impl Builder<'_> {
     }
 
     /// Draws a bottleneck in zone 0 that cuts off neither too few nor too many cells; `None` if there is no such
-    /// bottleneck. If `runway` is `true`, two free cells must lie in a line in front of the bottleneck, so that an
-    /// object can be pushed into it.
+    /// bottleneck. If `runway` is `true`, two free cells must lie in line in front of the bottleneck, so that an object
+    /// can be pushed into it.
     pub(crate) fn bottleneck(&mut self, runway: bool) -> Option<Bottleneck> {
         let grid = self.board.grid;
         let here = |builder: &Self, cell: usize| {
@@ -75,7 +75,7 @@ impl Builder<'_> {
                 found.push(Bottleneck { cell, behind });
             }
         }
-        // Prefer rooms to niches, but cut off less than half of the level.
+        // Prefer to cut off rooms rather than niches, but less than half of the level.
         let weight = |bottleneck: &Bottleneck| match bottleneck.behind.len() {
             1 => 1,
             size if size * 3 <= near.len() => 2 + 2 * size.min(8) as u32,

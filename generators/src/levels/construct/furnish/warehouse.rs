@@ -1,4 +1,4 @@
-//! Furnishing for levels with pushable objects, together with their solutions.
+//! Furnishing of levels with pushable objects. It also provides their solutions.
 
 use super::pulls::Pulls;
 use crate::levels::construct::builder::Builder;
@@ -10,7 +10,7 @@ use engine::SpriteType;
 use engine::analysis::Role;
 
 impl Builder<'_> {
-    /// Furnishes walls with a puzzle, and returns the solution as avatar steps.
+    /// Adds a puzzle to a board that contains only walls, and returns the solution as steps of the avatar.
     pub(crate) fn warehouse(&mut self, plan: &Jobs) -> Option<Vec<(i32, i32)>> {
         let grid = self.board.grid;
         let mut pulls = Pulls::new(grid, self.board.wall.clone());
@@ -48,14 +48,14 @@ impl Builder<'_> {
             sockets.push(cell);
             if !job.merges {
                 pulls.barred[cell] = true;
-                // Filled partners are gone at the end, while partners that stay are obstacles.
+                // Filled partners are gone at the end. Partners that stay are obstacles.
                 let walkable = job.walkable && !job.stays;
                 pulls.partners[cell] =
                     if job.fills && !job.stays { None } else { Some((job.partner, walkable)) };
             }
         }
-        // In reverse, the avatar comes from its first visit after the last push, or from any cell if the door is closed
-        // again.
+        // In reverse, the avatar comes from the first visit after the last push. If the plan has a door, which is
+        // closed again in reverse, it may come from any cell.
         pulls.avatar = if plan.door.is_some() { None } else { visits.first().copied() };
         self.scatter(plan, &sockets, &mut pulls);
         let depth = 3.0 + 7.0 * self.difficulty();
@@ -103,8 +103,8 @@ impl Builder<'_> {
         Some(visits)
     }
 
-    /// Draws a cell onto which to push an object, with enough room on at least one side, and near the other cells of
-    /// this kind.
+    /// Draws a cell onto which an object is to be pushed. The cell has enough room on at least one side and is near the
+    /// other cells of this kind.
     fn choose_socket(
         &mut self,
         pulls: &Pulls,
@@ -129,7 +129,7 @@ impl Builder<'_> {
             });
             let lines = lines.count() as u32;
             let close = chosen.iter().map(|&other| grid.manhattan(cell, other)).min().unwrap_or(2);
-            // Sockets stand in groups, by a wall, and never in a bottleneck.
+            // Sockets stand in groups next to a wall, and never in a bottleneck.
             let group = if merges { 2 } else { [0, 6, 4, 2, 1][close.min(4)] };
             let cut = grid.is_cut(cell, |next| !pulls.wall[next]);
             if lines == 0 || cut { 0 } else { (5 - lines.min(4)) * group }
@@ -138,7 +138,7 @@ impl Builder<'_> {
         self.sampler.weighted(&weights).map(|at| cells[at])
     }
 
-    /// Scatters loose objects in the solution's final state, from which the backward search starts.
+    /// Scatters loose objects in the final state of the solution, from which the backward construction starts.
     fn scatter(&mut self, plan: &Jobs, sockets: &[usize], pulls: &mut Pulls) {
         let grid = self.board.grid;
         for &stype in &plan.loose {
@@ -161,7 +161,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Walks the avatar backwards among the loose objects, dragging some of them into its way.
+    /// Walks the avatar backwards among the loose objects, so that it drags some of them into its own way.
     fn stray(&mut self, pulls: &mut Pulls) {
         let goal = pulls.avatar;
         let least = 3 + round(3.0 * self.difficulty(), &mut self.sampler);
@@ -185,7 +185,8 @@ impl Builder<'_> {
             let free = pulls.partners[cell].is_none() && self.board.placed[cell].is_none() && !behind(cell);
             match reachable[cell] {
                 steps if steps == FAR || !free => 0,
-                // The start is at a position as in the examples, preferably far from the last pull and from the exit.
+                // Prefer positions that match the avatar's positions in the examples, and positions far from the last
+                // pull and from the exit.
                 steps if self.target.is_some() => {
                     let exit = self.apart_from(cell, Role::Exit).min(12) as u32;
                     let far = (1 + steps * steps).saturating_mul(1 + exit * exit);
@@ -199,7 +200,7 @@ impl Builder<'_> {
         self.sampler.weighted(&weights).or(pulls.avatar)
     }
 
-    /// Places the puzzle on the board, fills unused corners with walls, and keeps the solution's cells free.
+    /// Places the puzzle on the board, fills unused corners with walls, and reserves the cells of the solution.
     fn finish(
         &mut self,
         plan: &Jobs,

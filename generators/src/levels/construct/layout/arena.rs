@@ -52,7 +52,7 @@ pub(super) fn pieces(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [
     }
 }
 
-/// Draws single blocks two or three cells apart, with some omitted.
+/// Draws single blocks two or three cells apart, and omits some of them.
 pub(super) fn pillars(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let margin = if ring { 2 } else { 1 };
     let (across, down) = (sampler.between(2, 3), sampler.between(2, 3));

@@ -1,5 +1,5 @@
-//! Caves by cellular automata (Johnson, Yannakakis and Togelius 2010, "Cellular automata for real-time generation of
-//! infinite cave levels").
+//! Caves drawn by cellular automata (Johnson, Yannakakis and Togelius 2010, "Cellular automata for real-time generation
+//! of infinite cave levels").
 
 use crate::levels::grid::Grid;
 use base::Sampler;
@@ -7,7 +7,7 @@ use base::Sampler;
 /// The number of smoothing rounds.
 const ROUNDS: usize = 3;
 
-/// Draws increasingly open caves, until one region contains most of the inside.
+/// Draws more and more open caves until a single region contains most of the area inside the border.
 pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let border: Vec<bool> = wall.to_vec();
     let inside = border.iter().filter(|&&wall| !wall).count();
@@ -15,7 +15,7 @@ pub(super) fn cave(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bo
         let mut cells: Vec<bool> = border.iter().map(|&wall| wall || sampler.ratio(fill, 100)).collect();
         for _ in 0..ROUNDS {
             let smooth = |cell: usize| {
-                // Cells off the board count as rock only if the board is closed.
+                // Cells off the board count as rock only if walls surround the board.
                 let rock =
                     grid.around(cell).iter().filter(|next| next.map_or(ring, |next| cells[next])).count();
                 rock >= 5 || (cells[cell] && rock >= 4)

@@ -1,10 +1,10 @@
-//! Adjusts the number of walls without changing the structure.
+//! Adjustment of the number of walls without a change to their structure.
 
 use super::mirror::Mirror;
 use crate::levels::grid::Grid;
 use base::Sampler;
 
-/// Thickens walls, or erodes them at their ends, until the fraction of walls inside the border is about `share`.
+/// Thickens walls, or erodes them at their ends, until they make up about `share` of the area inside the border.
 /// Regions stay connected, and symmetries are preserved. Cost: O(cells) per changed cell in the worst case.
 pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let inner: Vec<usize> = (0..grid.len()).filter(|&cell| !grid.on_border(cell)).collect();
@@ -13,7 +13,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
     let has = |wall: &[bool]| inner.iter().filter(|&&cell| wall[cell]).count();
     let mut now = has(wall);
     let grow = now < wanted;
-    // Growing and shrinking both reach the target to within the one or two cells of a symmetric pair.
+    // The result misses the target by at most the one or two cells of a symmetric pair, whether walls grow or shrink.
     while if grow { now < wanted } else { now > wanted } {
         let walls =
             |cell: usize| grid.around(cell).into_iter().filter(|next| next.is_none_or(|next| wall[next]));
@@ -22,7 +22,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
             if wall[cell] == grow {
                 0
             } else if grow {
-                // Nooks are changed first, then cells along existing walls.
+                // Nooks are filled first, then cells along existing walls.
                 match (beside(cell), walls(cell).count()) {
                     (3.., _) => 60,
                     (2, 5..) => 30,
@@ -39,7 +39,7 @@ pub(crate) fn adjust(grid: Grid, share: f64, sampler: &mut Sampler, wall: &mut [
             }
         };
         let weights: Vec<u32> = inner.iter().map(|&cell| weight(cell)).collect();
-        // If a change would cut off cells, it is excluded and a different change is drawn.
+        // A change that would cut off cells is excluded, and a different change is drawn.
         let mut weights = weights;
         let changed = loop {
             let Some(at) = sampler.weighted(&weights) else { return };

@@ -1,8 +1,8 @@
-//! Walls learnt from examples. Every 3×3 window in the result occurs in an example.
+//! Layouts of walls learnt from examples. Every 3×3 window of a layout occurs in an example.
 //!
-//! This is the overlapping model of wave function collapse: Karth and Smith 2017, "WaveFunctionCollapse is Constraint
-//! Solving in the Wild". In this implementation, border cells have their own classes, so that windows learnt at an edge
-//! stay at that edge. The last decisions are undone before a board is restarted.
+//! This is the overlapping model of wave function collapse (Karth and Smith 2017, "WaveFunctionCollapse is Constraint
+//! Solving in the Wild"). In this implementation, border cells have their own classes, so that windows learnt at an
+//! edge stay at that edge. Before a board is restarted, its last decisions are undone.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
@@ -40,7 +40,7 @@ fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
 }
 
 impl Patterns {
-    /// Adds the windows of a board and of its left-to-right reflection, because walls have the same meaning in both.
+    /// Adds the windows of a board and of its left-right mirror image, because walls mean the same in both.
     pub(crate) fn learn(&mut self, grid: Grid, wall: &[bool]) {
         for mirrored in [false, true] {
             for y in 0..(grid.rows + 1).saturating_sub(SIDE) {
@@ -56,12 +56,13 @@ impl Patterns {
         }
     }
 
-    /// Returns `true` if there is a structure to learn: a variety of windows with inner walls.
+    /// Returns `true` if there is a structure to learn, which requires several different windows with inner walls.
     pub(crate) fn has_structure(&self) -> bool {
         self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
     }
 
-    /// Computes which windows may overlap. Must be called after the last board. Cost: the square of [`MOST`].
+    /// Computes which windows may overlap. Must be called after all boards have been learnt. Cost: the square of
+    /// [`MOST`].
     pub(crate) fn conclude(&mut self) {
         let mut windows: Vec<(u32, Window)> =
             self.seen.iter().map(|(window, &count)| (count, *window)).collect();
@@ -130,13 +131,13 @@ impl Model {
     }
 }
 
-/// A partly decided board, with the windows still possible at each position.
+/// A partly decided board, with the windows that are still possible at each position.
 #[derive(Clone)]
 struct Wave<'a> {
     model: &'a Model,
     /// The board's size.
     grid: Grid,
-    /// The positions of windows, by upper left cell.
+    /// The grid of window positions. The position of a window is its upper left cell.
     places: Grid,
     possible: Vec<u64>,
     /// The number of machine words in a set of windows.
@@ -157,8 +158,8 @@ fn size(set: &[u64]) -> u32 {
 }
 
 impl<'a> Wave<'a> {
-    /// Creates a wave in which all windows are possible, except that border cells must match the board. Returns `None`
-    /// if a position is then left without a window.
+    /// Creates a wave in which all windows are possible whose border cells match those of the board. Returns `None` if
+    /// this leaves a position without a window.
     fn new(model: &'a Model, grid: Grid) -> Option<Wave<'a>> {
         let places = Grid { columns: grid.columns + 1 - SIDE, rows: grid.rows + 1 - SIDE };
         let suits = |place: usize, window: &Window| {
@@ -183,10 +184,10 @@ impl<'a> Wave<'a> {
 
     /// Repeatedly decides the position with the lowest entropy.
     fn collapse(mut self, sampler: &mut Sampler) -> Option<Vec<bool>> {
-        // Ties are broken by a random order.
+        // A random order breaks ties.
         let mut order: Vec<usize> = (0..self.places.len()).collect();
         sampler.shuffle(&mut order);
-        // The possibilities before each decision, with the chosen position and window.
+        // The possible windows before each decision, with the position and the window that were chosen.
         let mut before: VecDeque<(Vec<u64>, usize, usize)> = VecDeque::new();
         loop {
             let open = order.iter().copied().filter(|&place| self.entropy[place] > 0);
@@ -229,8 +230,8 @@ impl<'a> Wave<'a> {
         &self.possible[place * self.words..][..self.words]
     }
 
-    /// Returns a position's entropy: the Shannon entropy of the frequencies, in thousandths of a nat, plus one; 0 if
-    /// there is no choice.
+    /// Returns the entropy of a position, which is the Shannon entropy of the window frequencies in thousandths of a
+    /// nat, plus one. Returns 0 if there is no choice.
     fn measure(&self, place: usize) -> u64 {
         let (mut sum, mut logs, mut options) = (0.0, 0.0, 0);
         for at in members(self.set(place)) {
@@ -241,7 +242,7 @@ impl<'a> Wave<'a> {
         if options < 2 { 0 } else { ((libm::log(sum) - logs / sum) * 1000.0) as u64 + 1 }
     }
 
-    /// Rules out all windows that are incompatible with every window at a neighbouring position, starting from the
+    /// Rules out all windows that are incompatible with every window at a neighbouring position. Starts from the
     /// changed positions. Returns `None` if a position is left without a window.
     fn propagate(&mut self, mut changed: Vec<usize>) -> Option<()> {
         let mut waiting = vec![false; self.places.len()];
@@ -262,7 +263,7 @@ impl<'a> Wave<'a> {
                         *word |= fit;
                         missing |= possible & !*word;
                     }
-                    // In most cases, a few windows allow all possible windows.
+                    // In most cases, a few windows are enough to allow all possible windows.
                     if missing == 0 {
                         break;
                     }

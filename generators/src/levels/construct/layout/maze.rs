@@ -1,4 +1,4 @@
-//! Mazes: depth-first corridors on every second cell, with some dead ends opened.
+//! Mazes of depth-first corridors on every second cell, with some of the dead ends opened.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;
@@ -36,7 +36,7 @@ pub(super) fn maze(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, wa
     open_dead_ends(grid, ring, 0.15 + 0.5 * loops, sampler, wall);
 }
 
-/// Opens a wall at some of the dead ends.
+/// Opens a wall at a fraction of the dead ends.
 fn open_dead_ends(grid: Grid, ring: bool, share: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     for cell in 0..grid.len() {
         let exits = grid.beside(cell).filter(|&next| !wall[next]).count();

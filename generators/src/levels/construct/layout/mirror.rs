@@ -24,7 +24,7 @@ impl Mirror {
         ])
     }
 
-    /// Returns the walls' symmetry.
+    /// Returns the symmetry of the walls.
     pub(crate) fn of_walls(grid: Grid, wall: &[bool]) -> Mirror {
         let kept = |mirror: &Mirror| (0..grid.len()).all(|cell| wall[cell] == wall[mirror.of(grid, cell)]);
         [Mirror::Sides, Mirror::Turn, Mirror::Ends].into_iter().find(kept).unwrap_or(Mirror::None)

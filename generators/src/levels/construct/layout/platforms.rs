@@ -6,8 +6,8 @@ use base::Sampler;
 /// The number of rows from one ledge up to the next.
 const RISE: usize = 3;
 
-/// Draws ledges of three to seven cells every three rows, from the floor up, with gaps between them. Every storey has
-/// at least one gap that the avatar can climb through.
+/// Draws ledges of three to seven cells in every third row, from the floor up, with gaps between them. Every storey has
+/// at least one gap through which the avatar can climb.
 pub(super) fn platforms(grid: Grid, ring: bool, sampler: &mut Sampler, wall: &mut [bool]) {
     let edge = usize::from(ring);
     let (left, right) = (edge, grid.columns - edge);

@@ -1,4 +1,4 @@
-//! Rooms, created by walls with doors that divide the inside recursively.
+//! Rooms, created by dividing the area inside the border recursively with walls that have doors.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
@@ -15,7 +15,8 @@ struct Room {
 /// The minimum side length of a room.
 const SHORTEST: usize = 2;
 
-/// Divides the inside until the rooms are small. `loops` is the probability that a wall gets a second door.
+/// Divides the area inside the border until the rooms are small. `loops` is the probability that a wall gets a second
+/// door.
 pub(super) fn rooms(grid: Grid, ring: bool, loops: f64, sampler: &mut Sampler, wall: &mut [bool]) {
     let edge = usize::from(ring);
     let whole = Room { x: edge, y: edge, width: grid.columns - 2 * edge, height: grid.rows - 2 * edge };

@@ -1,4 +1,4 @@
-//! Lock puzzle layouts, and changes to layouts.
+//! Layouts of lock puzzles, and changes to layouts.
 
 use crate::Variation;
 use crate::levels::grid::Grid;
@@ -32,7 +32,7 @@ pub(super) struct Layout {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Furniture {
     pub(super) kinds: usize,
-    /// The number of keys, and also of doors, of each kind.
+    /// The number of keys of each kind, which is also the number of doors of each kind.
     pub(super) locks: usize,
     pub(super) planks: usize,
     pub(super) goals: usize,
@@ -44,7 +44,7 @@ pub(super) struct Layouts {
     pub(super) furniture: Furniture,
 }
 
-/// The maximum fraction of inner cells dug as corridors.
+/// The maximum fraction of the inner cells that are dug as corridors.
 const CARVED: f64 = 0.62;
 
 impl Layouts {
@@ -52,8 +52,8 @@ impl Layouts {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// Digs corridors: first through cells that do not join connected floor cells, and then through a few more
-    /// cells.
+    /// Digs corridors. The first cells dug do not connect floor cells that are already connected. A few more cells are
+    /// dug afterwards.
     fn dig(&self, sampler: &mut Sampler) -> Vec<Tile> {
         let mut tiles = vec![Tile::Wall; self.grid.len()];
         let mut inner = self.inner();
@@ -89,8 +89,7 @@ impl Layouts {
     }
 }
 
-/// Returns `true` if a cell is part of a corridor: two opposite neighbours are floor, and the other two are
-/// walls.
+/// Returns `true` if a cell is part of a corridor, where two opposite neighbours are floor and the other two are walls.
 fn is_corridor(grid: Grid, tiles: &[Tile], cell: usize) -> bool {
     let is_wall = |way| grid.shift(cell, way).is_none_or(|next| tiles[next] == Tile::Wall);
     let [up, left, down, right] = [(0, -1), (-1, 0), (0, 1), (1, 0)].map(is_wall);

@@ -21,7 +21,7 @@ base::with_defaults! {
         pub rows: (usize, usize) = (10, 11),
         /// The minimum number of actions in a shortest win.
         pub decisions: usize = 60,
-        /// The minimum fraction of dead ends among the states one step off the shortest win. A dead end is a
+        /// The minimum fraction of dead ends among the states that are one step off the shortest win. A dead end is a
         /// state from which no win exists.
         pub dead_ends: f64 = 0.05,
         /// The maximum number of layouts to examine per level.
@@ -29,11 +29,11 @@ base::with_defaults! {
     }
 }
 
-/// The maximum number of states per layout, so that a level can be searched exhaustively.
+/// The maximum number of states per layout, which keeps an exhaustive search of the level feasible.
 const MOST_STATES: usize = 15_000;
-/// The number of layouts to request together. The layouts are then rated one by one.
+/// The number of layouts to request at a time. They are then rated one by one.
 const BATCH: usize = 8;
-/// The number of inner cells on a board for which [`furniture`] returns the default numbers of items.
+/// The number of inner cells on a board of typical size, for which [`furniture`] returns the default numbers of items.
 const USUAL: f64 = 64.0;
 
 /// A lock puzzle in the characters of [`LockRules::game`], with a winning sequence of actions.
@@ -46,8 +46,8 @@ pub struct LockLevel {
 }
 
 impl LockConfig {
-    /// Generates the level for a seed. Layouts are annealed until an exhaustive search shows that a layout
-    /// meets the target. Returns `None` if no layout meets the target. Cost: about a millisecond per layout.
+    /// Generates the level for a seed. Layouts are annealed until an exhaustive search shows that one meets the target.
+    /// Returns `None` if none does. Cost: about a millisecond per layout.
     pub fn level(&self, rules: LockRules, seed: Seed) -> Option<LockLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));

@@ -3,12 +3,12 @@
 use super::layout::{Layout, Tile};
 use crate::levels::grid::WAYS;
 
-/// A layout's shortest win, and statistics on the states one step off the win.
+/// A shortest win of a layout, and statistics on the states that are one step off this win.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Walk {
     /// The steps of a shortest win, as indices into [`WAYS`].
     pub(super) ways: Vec<usize>,
-    /// The number of states one step off the win.
+    /// The number of states that are one step off the win.
     pub(super) beside: usize,
     /// The number of states in `beside` from which no win exists.
     pub(super) dead: usize,
@@ -26,7 +26,7 @@ const NONE: u32 = u32::MAX;
 
 struct Space<'a> {
     layout: &'a Layout,
-    /// For each cell, its item's bit; `None` if the cell has no item that can be taken, opened or worn out.
+    /// For each cell, the bit of its item; `None` if the cell has no item that can be taken, opened or worn out.
     bits: Vec<Option<u32>>,
     /// The bits of keys, by kind.
     keys: [Packed; 2],
@@ -75,7 +75,7 @@ impl Space<'_> {
             Tile::Plank if state & own != 0 => None,
             Tile::Door(kind) if state & own == 0 => {
                 let held = (state & self.keys[kind]).count_ones() - (state & self.doors[kind]).count_ones();
-                // A door that opens pushes the avatar back, and the avatar enters in the next tick.
+                // A door that opens pushes the avatar back. The avatar can enter in the next tick.
                 (held > 0).then_some(state | own)
             }
             _ => Some(moved | own),
@@ -83,7 +83,7 @@ impl Space<'_> {
     }
 }
 
-/// States by number. States are looked up by content in a hash table with open addressing, at least twice as large as
+/// States by number. They are looked up by content in a hash table with open addressing, whose size is at least twice
 /// the number of states.
 struct Table {
     slots: Vec<u32>,
@@ -95,7 +95,7 @@ impl Table {
         Table { slots: vec![NONE; 1024], states: Vec::new() }
     }
 
-    /// Returns a state's slot, or the free slot where the state belongs.
+    /// Returns the slot of a state, or the free slot where it belongs.
     fn slot(&self, state: Packed) -> usize {
         let folded = (state as u64) ^ ((state >> 64) as u64).rotate_left(29);
         let mask = self.slots.len() - 1;
@@ -181,7 +181,7 @@ impl Walk {
         Some(Walk { ways, beside: beside.len(), dead, states: table.states.len() })
     }
 
-    /// Returns the fraction of dead ends among the states one step off the win.
+    /// Returns the fraction of dead ends among the states that are one step off the win.
     pub(super) fn dead_share(&self) -> f64 {
         self.dead as f64 / self.beside.max(1) as f64
     }

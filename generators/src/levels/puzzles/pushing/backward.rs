@@ -1,4 +1,4 @@
-//! Breadth-first search backwards from all solved positions. Computes each position's distance from a solution.
+//! Backward breadth-first search from all solved positions, which gives each position's distance from a solution.
 
 use super::floor_plan::{Position, Pushing, bit, each};
 use crate::levels::grid::WAYS;
@@ -35,7 +35,7 @@ impl SearchedPositions {
         Some(usize::from(self.distances[at as usize]))
     }
 
-    /// Returns a position's slot, or the free slot where the position belongs.
+    /// Returns the slot of a position, or the free slot where it belongs.
     fn slot(&self, position: &Position) -> usize {
         let mask = self.slots.len().wrapping_sub(1);
         let mut slot = hash(position) as usize & mask;
@@ -80,9 +80,9 @@ fn hash(position: &Position) -> u64 {
 }
 
 impl Pushing<'_> {
-    /// Computes the minimum number of pushes needed to solve each position. Positions that differ only by a walk count
-    /// as one position, with the avatar in the first reachable cell. The search stops after about `most` positions; the
-    /// farthest positions are then missing.
+    /// Computes the minimum number of pushes needed to solve each position. Positions that differ only by a walk of the
+    /// avatar count as one position, with the avatar in the first reachable cell. The search stops after about `most`
+    /// positions. In this case, the farthest positions are missing.
     ///
     /// Cost: O(positions × objects), about a microsecond per position.
     pub(crate) fn by_pushes(&self, most: usize) -> SearchedPositions {
@@ -149,8 +149,8 @@ impl Pushing<'_> {
         searched
     }
 
-    /// Returns the avatar's steps that solve a position with the minimum number of pushes, with a short walk before
-    /// each push. `pushes` comes from [`Pushing::by_pushes`]. Returns `None` if `pushes` does not contain the position.
+    /// Returns the avatar's steps that solve a position with the minimum number of pushes and a short walk before each
+    /// push. `pushes` comes from [`Pushing::by_pushes`]. Returns `None` if `pushes` does not contain the position.
     pub(crate) fn solution(&self, pushes: &SearchedPositions, start: Position) -> Option<Vec<(i32, i32)>> {
         let grid = self.floor_plan.grid;
         let distance = |position: &Position| {

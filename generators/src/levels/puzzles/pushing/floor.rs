@@ -1,5 +1,5 @@
-//! Floor plans for puzzles. Floor plans are drawn, varied, and rated by the distance of their farthest position from a
-//! solution.
+//! Floor plans for puzzles. They are drawn, varied, and rated by the distance between a solution and the position
+//! farthest from it.
 
 use super::floor_plan::{Cells, FloorPlan, Position, Pushing, bit, each};
 use super::rules::{KINDS, Rules};
@@ -12,21 +12,21 @@ use base::{Sampler, Seed};
 pub(crate) const MAX_POSITIONS: usize = 100_000;
 /// The maximum distance in cells between a target and the nearest other target.
 const GROUP: usize = 2;
-/// The number of pushes with a rating of 1.0.
+/// The number of pushes that is rated 1.0.
 const PERFECT: f64 = 120.0;
 /// The maximum number of sills.
 const MAX_SILLS: usize = 5;
 /// The number of attempts at a change before a floor plan is returned unchanged.
 const REDRAWS: usize = 40;
 
-/// A generator of fixed-size floor plans for given numbers of objects.
+/// A generator of floor plans with a fixed size and for fixed numbers of objects.
 pub(crate) struct FloorPlans<'a> {
     pub(crate) rules: &'a Rules,
     pub(crate) grid: Grid,
     pub(crate) counts: [usize; KINDS],
     /// The maximum number of positions to examine when rating a floor plan.
     pub(crate) most_positions: usize,
-    /// `true` if floor plans have sills, in games that declare such a type.
+    /// `true` if floor plans have sills, provided that the game declares such a type.
     pub(crate) sills: bool,
 }
 
@@ -41,15 +41,15 @@ impl FloorPlans<'_> {
         if has_targets { self.counts[kind] } else { 0 }
     }
 
-    /// Returns the minimum number of open cells. This number leaves enough room for all objects, and more than a small
-    /// closet in a block of walls.
+    /// Returns the minimum number of open cells. It leaves enough room for all objects, and prevents floor plans that
+    /// are only a closet in a block of walls.
     fn least(&self) -> usize {
         let things: usize = self.counts.iter().sum();
         let share = (self.grid.columns - 2) * (self.grid.rows - 2) * 2 / 5;
         (3 * things + 5).max(share.min(self.most()))
     }
 
-    /// Returns the initial maximum number of open cells. If objects may meet anywhere, a large yard has too many
+    /// Returns the maximum number of open cells to start with. If objects may meet anywhere, a larger area has too many
     /// positions.
     fn most(&self) -> usize {
         if self.rules.in_pairs() { 22 } else { usize::MAX }
@@ -97,13 +97,13 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| open & bit(cell) == 0).map(bit).sum()
     }
 
-    /// Returns `true` if a target in the cell would belong to the group of targets.
+    /// Returns `true` if a target in the cell would be part of the group of targets.
     fn joins(&self, floor_plan: &FloorPlan, cell: usize) -> bool {
         floor_plan.all_targets() == 0
             || each(floor_plan.all_targets()).any(|other| self.grid.manhattan(cell, other) <= GROUP)
     }
 
-    /// Returns `true` if the yard is connected and has enough room.
+    /// Returns `true` if the floor is connected and has enough room.
     fn is_fair(&self, floor_plan: &FloorPlan) -> bool {
         let pushing = Pushing { floor_plan, rules: self.rules };
         let open = pushing.stands(&Position::default());
@@ -128,7 +128,7 @@ impl FloorPlans<'_> {
         let mut next = floor_plan.clone();
         let inner = self.inner();
         let wall = |floor_plan: &FloorPlan, cell: usize| floor_plan.wall & bit(cell) != 0;
-        // The cells along the edges between wall and floor.
+        // The cells along the boundary between walls and floor.
         let edge = |floor_plan: &FloorPlan, walls: bool| -> Vec<usize> {
             let meets = |&cell: &usize| {
                 wall(floor_plan, cell) == walls
@@ -192,7 +192,8 @@ impl FloorPlans<'_> {
         Pushing { floor_plan, rules: self.rules }.by_pushes(self.most_positions).len()
     }
 
-    /// Rates a yard by the number of pushes in its solution, with a penalty for halls and isolated wall blocks.
+    /// Rates a floor plan by the number of pushes from its farthest position, with a penalty for halls and isolated
+    /// wall blocks.
     pub(crate) fn rate(&self, floor_plan: &FloorPlan) -> Evaluation {
         let depth = self.depth(floor_plan);
         let objective = (depth as f64 - self.tidiness_penalty(floor_plan)).max(0.0) / PERFECT;
@@ -222,7 +223,7 @@ impl FloorPlans<'_> {
     }
 
     /// Turns floor that is not needed for any solution into walls, and removes isolated walls, as long as the farthest
-    /// position does not get closer.
+    /// position does not come closer to a solution.
     pub(crate) fn tidy(&self, floor_plan: &FloorPlan) -> FloorPlan {
         let mut best = floor_plan.clone();
         let mut depth = self.depth(&best);
@@ -248,8 +249,8 @@ impl FloorPlans<'_> {
         best
     }
 
-    /// Returns the number of objects of each kind. The numbers are equal if objects are pushed onto each other in
-    /// pairs.
+    /// Returns the number of objects of each kind. If objects are pushed onto each other in pairs, the numbers are
+    /// equal.
     pub(crate) fn counts_of(rules: &Rules, things: usize) -> [usize; KINDS] {
         match rules.kinds.len() {
             1 => [things, 0],

@@ -1,4 +1,4 @@
-//! Floor plans for pushing: walls and targets as sets of cells, and the effect of a push.
+//! Floor plans for pushing. Walls and targets are sets of cells, on which the effect of a push is computed.
 
 use super::rules::{Destination, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
@@ -50,7 +50,7 @@ pub(crate) struct Position {
     pub(crate) things: [Cells; KINDS],
     /// The remaining targets, by kind.
     pub(crate) targets: [Cells; KINDS],
-    /// The avatar's cell, or the first cell within its reach.
+    /// The avatar's cell, or the first cell that the avatar can reach.
     pub(crate) avatar: u8,
 }
 
@@ -117,7 +117,7 @@ impl Pushing<'_> {
         }
     }
 
-    /// Returns the solved positions, without the avatar.
+    /// Returns the solved positions, without a cell for the avatar.
     pub(crate) fn solved(&self) -> Vec<Position> {
         let mut all = vec![Position::default()];
         for (kind, destination) in self.rules.destinations.iter().enumerate() {
@@ -126,7 +126,7 @@ impl Pushing<'_> {
             // The remaining things and targets.
             let ends: Vec<(Cells, Cells)> = match destination {
                 Destination::Sink | Destination::Partner => vec![(0, targets)],
-                // All choices of filled holes, or all holes if there are no more holes than things.
+                // Every choice of holes to fill, or all holes if there are no more holes than things.
                 Destination::Hole => {
                     subsets(targets, count).into_iter().map(|filled| (0, targets & !filled)).collect()
                 }
@@ -159,7 +159,7 @@ impl Pushing<'_> {
         (position.things[kind].count_ones() as usize) < self.floor_plan.counts[kind]
     }
 
-    /// Returns the possible end cells of the push that led to a position.
+    /// Returns the cells at which the push that led to a position may have ended.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
         let gone = |(kind, destination): (usize, &Destination)| match destination {
             _ if !self.is_missing(kind, after) => 0,
@@ -170,9 +170,9 @@ impl Pushing<'_> {
         self.rules.destinations.iter().enumerate().map(gone).fold(after.taken(), |ends, more| ends | more)
     }
 
-    /// Finds the positions before the push that left the avatar at `near`, coming from `near` plus `stride`. The push
-    /// moved the object from `near` to `near` minus `stride`. In the returned positions, the avatar is in the cell from
-    /// which it pushed.
+    /// Finds the positions before the push that moved the avatar to `near` from `near` plus `stride`. The push moved
+    /// the object from `near` to `near` minus `stride`. In the returned positions, the avatar is in the cell from which
+    /// it pushed.
     pub(crate) fn before(
         &self,
         after: &Position,
@@ -225,7 +225,8 @@ impl Pushing<'_> {
         }
     }
 
-    /// Returns the position after a step of the avatar from its exact cell; `None` if the step is blocked.
+    /// Returns the position after a step of the avatar; `None` if the step is blocked. `position` must contain the
+    /// avatar's exact cell.
     pub(crate) fn step(&self, position: &Position, stride: isize) -> Option<Position> {
         let near = usize::from(position.avatar).checked_add_signed(stride)?;
         if self.stands(position) & bit(near) != 0 {

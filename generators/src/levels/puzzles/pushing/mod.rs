@@ -1,5 +1,5 @@
-//! Pushing puzzles, constructed backwards. The generator searches all positions from which a floor plan is solvable,
-//! and uses the farthest position as the level.
+//! Pushing puzzles, constructed backwards. The generator searches all positions from which a floor plan can be solved,
+//! and uses the farthest one as the level.
 
 pub(crate) mod backward;
 pub(crate) mod floor;

@@ -1,4 +1,4 @@
-//! The pushing rules, for games won only by pushing.
+//! The pushing rules of games that are won only by pushing.
 
 use crate::GenerateError;
 use crate::levels::palette::{Palette, Walk};
@@ -11,7 +11,7 @@ pub(crate) const KINDS: usize = 2;
 /// A pushed object's destination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Destination {
-    /// A target on which the object vanishes, while the target remains.
+    /// A target on which the object vanishes while the target remains.
     Sink,
     /// A target that vanishes together with the object.
     Hole,
@@ -24,9 +24,10 @@ pub(crate) enum Destination {
 /// The pushing rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
-    /// The pushed types: one kind, or two kinds that have their own targets or are pushed onto each other.
+    /// The pushed types. There is one kind, or there are two kinds that have their own targets or are pushed onto each
+    /// other.
     pub(crate) kinds: Vec<SpriteType>,
-    /// Each kind's destination.
+    /// The destination of each kind.
     pub(crate) destinations: Vec<Destination>,
     /// The type of the targets of each kind; `None` if objects are pushed onto other objects.
     pub(crate) targets: Vec<Option<SpriteType>>,
@@ -34,7 +35,8 @@ pub(crate) struct Rules {
     pub(crate) walkable: [bool; KINDS],
     /// `crosses[a][b]` is `true` if an object of kind a can lie on a target of kind b and be pushed further.
     pub(crate) crosses: [[bool; KINDS]; KINDS],
-    /// Ground that the avatar can walk on and objects cannot be pushed onto; `None` if the rules have no such type.
+    /// Ground on which the avatar can walk but onto which objects cannot be pushed; `None` if the rules have no such
+    /// type.
     pub(crate) sill: Option<SpriteType>,
     /// `merges[a][b]` is `true` if pushing an object of kind a onto an object of kind b removes both.
     pub(crate) merges: [[bool; KINDS]; KINDS],
@@ -159,8 +161,8 @@ fn find_sill(
     })
 }
 
-/// Returns the rules for one kind of objects pushed to targets: the target, the objects' destination, and whether the
-/// avatar can stand on the target.
+/// Returns the rules for one kind of objects that are pushed to targets: the target, the objects' destination, and
+/// `true` if the avatar can stand on the target.
 fn single(
     analysis: &Analysis,
     palette: &Palette,

@@ -1,5 +1,5 @@
-//! Pushing puzzles on open boards among strays (sprites that wander at random). The player must plan the pushes ahead,
-//! and look before walking.
+//! Pushing puzzles on open boards among strays (sprites that wander at random). The player must plan the pushes ahead
+//! and look at the board before walking.
 
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, KINDS, Rules};
@@ -18,8 +18,8 @@ base::with_defaults! {
     pub struct StrayConfig {
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
-        /// The minimum and maximum number of rows, including the row of the fuse. Without that row, a board has at most
-        /// 128 cells.
+        /// The minimum and maximum number of rows, including the row of the fuse. Without that row, a board can have at
+        /// most 128 cells.
         pub rows: (usize, usize) = (11, 12),
         /// The range of win lengths without strays, in actions. The upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
@@ -27,7 +27,8 @@ base::with_defaults! {
         pub strays: (usize, usize) = (3, 10),
         /// The minimum fraction of episodes won by a careful player that looks before every action.
         pub fairness: f64 = 0.4,
-        /// The commitments for which the careful player's win rate is measured.
+        /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
+        /// between two looks.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of boards to draw per level.
         pub boards: u64 = 400,
@@ -36,15 +37,15 @@ base::with_defaults! {
 
 /// The minimum side length of boards.
 const LEAST_SIDE: usize = 7;
-/// The fraction of walls among the inner cells.
+/// The fraction of the inner cells that are walls.
 const WALLS: f64 = 0.08;
-/// The fraction of sills among the inner cells, for rules with sills.
+/// The fraction of the inner cells that are sills, for rules with sills.
 const SILLS: f64 = 0.05;
 /// The approximate number of actions per pushed object.
 const ACTIONS_EACH: usize = 15;
 /// The minimum number of inner cells per pushed object, which limits the number of objects.
 const ROOM: usize = 8;
-/// The number of actions in the win per extra action of allowed time.
+/// The number of actions in the win for each additional action that the fuse allows.
 const SPARE: usize = 2;
 /// The minimum distance between strays and the avatar.
 const AWAY: usize = 4;
@@ -72,10 +73,9 @@ pub struct StrayLevel {
 
 /// A level generator for the rules in [`PushRules::AMONG_STRAYS`].
 ///
-/// Boards are open, so that the avatar is not cornered for long. The solution pushes one object at a time, always
-/// choosing the object that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful
-/// player that follows these pushes shows how often the level can be won by a player that looks at the board before
-/// each action.
+/// Boards are open, so that the avatar is not cornered for long. The solution pushes one object at a time, always the
+/// one that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful player that
+/// follows these pushes shows how often a player that looks at the board before each action can win.
 pub struct StrayLevels {
     /// The game without strays.
     calm: Game,
@@ -87,7 +87,7 @@ impl StrayLevels {
     /// Creates a generator for rules with strays.
     ///
     /// # Panics
-    /// Never panics: without strays, all rules are valid pushing puzzle rules, as a test verifies.
+    /// Never panics, because without strays all rules are valid rules of pushing puzzles, as a test verifies.
     pub fn new(rules: PushRules, config: StrayConfig) -> StrayLevels {
         let calm = rules.without_strays().game();
         let analysis = Analysis::of(&calm);
@@ -162,7 +162,7 @@ impl StrayLevels {
         for thing in 0..things {
             let kind = thing % kinds;
             floor_plan.counts[kind] += 1;
-            // All things of a kind go into the same drain.
+            // All things of a kind disappear into the same drain.
             if self.rules.destinations[kind] != Destination::Sink || thing < kinds {
                 floor_plan.targets[kind] |= bit(free.pop()?);
             }
@@ -210,9 +210,9 @@ impl StrayLevels {
     }
 }
 
-/// Returns the steps, as indices into [`WAYS`], that push one object after the other to its destination. The next
-/// object is always the one that takes the fewest steps. Returns `None` if an object cannot reach its destination in
-/// this order. Cost: O(objects² · cells²).
+/// Returns the steps that push one object after another to its destination, as indices into [`WAYS`]. The next object
+/// is always the one that takes the fewest steps. Returns `None` if an object cannot reach its destination in this
+/// order. Cost: O(objects² · cells²).
 fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     let (mut position, mut ways) = (start, Vec::new());
     loop {
@@ -232,8 +232,8 @@ fn errands(pushing: &Pushing<'_>, start: Position) -> Option<Vec<usize>> {
     }
 }
 
-/// Returns the shortest list of steps that push one object to its destination while all other objects stay in place,
-/// and the resulting position.
+/// Returns the shortest sequence of steps that pushes one object to its destination while all other objects stay in
+/// place, and the resulting position.
 fn errand(
     pushing: &Pushing<'_>,
     start: Position,
@@ -243,7 +243,7 @@ fn errand(
     let others = start.things[kind] & !bit(cell);
     let mut seen = vec![false; cells * cells];
     seen[cell * cells + usize::from(start.avatar)] = true;
-    // Positions, each with the index of its predecessor and the step that led to it.
+    // The positions found, each with the index of its predecessor and the step that led to it.
     let mut found: Vec<(Position, usize, usize)> = vec![(start, 0, 0)];
     let mut at = 0;
     while at < found.len() {
@@ -311,7 +311,7 @@ fn rows(cells: Vec<char>, columns: usize) -> String {
 mod tests {
     use super::*;
 
-    /// Levels are won if no stray is in the way, and the careful player wins as many episodes in the game as in the
+    /// Levels can be won if no stray is in the way, and the careful player's win rate is the same in the game as in the
     /// generator. This test covers one set of rules, or two in a sweep (`cargo xtask sweep`).
     #[test]
     fn plays_among_strays_agree_with_the_game() {

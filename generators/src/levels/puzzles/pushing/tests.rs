@@ -1,4 +1,5 @@
-//! Compares the puzzle rules and the backward search with plain forward search, for every kind of destination.
+//! Tests that compare the puzzle rules and the backward search with a plain forward search, for every kind of
+//! destination.
 
 #[path = "../../../../tests/it/levels/puzzles/crates.rs"]
 mod crates;

@@ -1,4 +1,4 @@
-//! The trail of a win in a pushing puzzle. Between the win's pushes, the avatar may rest and walk around.
+//! The trail of a win in a pushing puzzle. Between the pushes of the win, the avatar may rest and walk around.
 
 use crate::games::PushRules;
 use crate::levels::grid::{Grid, WAYS};
@@ -6,11 +6,11 @@ use crate::levels::puzzles::lookout::{ACTIONS, Moves};
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, SpriteType, State};
 
-/// A win's pushes, in order. A state consists of the number of pushes so far and the avatar's cell.
+/// The pushes of a win, in order. A state consists of the number of pushes so far and the avatar's cell.
 pub(crate) struct Trail {
     grid: Grid,
     start: usize,
-    /// For each number of pushes and each cell, `true` if the avatar can walk into the cell.
+    /// For each number of pushes and each cell, `true` if the avatar can enter the cell.
     is_open: Vec<Vec<bool>>,
     /// The avatar's cell and the direction of each push.
     pushes: Vec<(usize, usize)>,
@@ -83,7 +83,7 @@ impl Moves for Trail {
         false
     }
 
-    /// Only the win's next push is possible.
+    /// Allows only the next push of the win.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (pushed, cell) = (state / self.grid.len(), self.cell(state));
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {

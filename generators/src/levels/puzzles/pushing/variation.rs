@@ -15,66 +15,68 @@ use engine::{Game, Level, SpriteType};
 
 /// The maximum number of positions to search per floor plan when creating its level.
 const MAX_POSITIONS: usize = 400_000;
-/// The maximum number of positions to search for the longest path, with positions distinguished by the avatar's cell.
-/// With more positions, an arbitrary position is used.
+/// The maximum number of positions to search for the one that takes the avatar the most steps. Here, positions also
+/// differ by the avatar's cell. With more positions, an arbitrary one is used.
 const MAX_STEPS: usize = 250_000;
-/// The approximate total number of positions to search per level. If floor plans have many positions, fewer plans are
+/// The approximate total number of positions to search per level. If floor plans have many positions, fewer of them are
 /// rated.
 const POSITIONS: usize = 1_200_000;
-/// The number of floor plans to request together. The plans are then rated one by one.
+/// The number of floor plans to request at a time. They are then rated one by one.
 const BATCH: usize = 8;
 /// The number of attempts to turn floor plans into a level before generation fails for the seed.
 const ATTEMPTS: u64 = 4;
-/// The number of changes to a floor plan from which a mutation selects the best.
+/// The number of changed floor plans from which a mutation selects the best.
 const CHANGES: usize = 6;
 
 base::with_defaults! {
     /// The configuration for pushing puzzles.
     #[derive(Clone, Debug, PartialEq)]
     pub struct PuzzleConfig {
-        /// The number of pushable objects. If `None`, the number comes from [`LevelConfig::counts`], or otherwise is at
-        /// least two, depending on difficulty and room. With a target and more than three objects, a floor plan takes
-        /// up to several seconds and 500 MB.
+        /// The number of pushable objects. If `None`, the number comes from [`LevelConfig::counts`]. If that does not
+        /// contain it either, the number is at least two and depends on the difficulty and the available room. With a
+        /// target and more than three objects, a floor plan takes up to several seconds and 500 MB.
         pub things: Option<usize> = None,
         /// The maximum number of floor plans to examine per level.
         pub floor_plans: usize = 600,
-        /// The range of the level's distance from its solution, as a fraction of the longest distance. The draw favours
-        /// the lower end. If `None`, the range is derived from [`LevelConfig::difficulty`].
+        /// The range of the level's distance from its solution, as a fraction of the longest distance. Distances at the
+        /// lower end are more likely. If `None`, the range is derived from [`LevelConfig::difficulty`].
         pub way: Option<(f64, f64)> = None,
-        /// A level's minimum demand. Floor plans are searched until one meets the demand, with more positions per plan.
+        /// The minimum demand of a level. If it is set, floor plans are searched until one meets it, with more
+        /// positions per plan.
         pub target: Option<PuzzleTarget> = None,
     }
 }
 
-/// A puzzle's minimum demand.
+/// The minimum demand of a puzzle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PuzzleTarget {
     /// The minimum number of pushes in any win.
     pub pushes: usize,
-    /// The minimum number of actions in the push-optimal solution.
+    /// The minimum number of actions in the solution with the fewest pushes.
     pub decisions: usize,
 }
 
-/// The maximum number of positions per floor plan, in a target search with up to [`DEEP_THINGS`] objects.
+/// The maximum number of positions per floor plan, if the search has a target and up to [`DEEP_THINGS`] objects.
 const DEEP_POSITIONS: usize = 150_000;
-/// The maximum total number of positions, in a target search with up to [`DEEP_THINGS`] objects.
+/// The maximum total number of positions, if the search has a target and up to [`DEEP_THINGS`] objects.
 const DEEP_SEARCH: usize = 150_000_000;
-/// The maximum number of positions per floor plan, in a target search with more than [`DEEP_THINGS`] objects.
+/// The maximum number of positions per floor plan, if the search has a target and more than [`DEEP_THINGS`] objects.
 const VAST_POSITIONS: usize = 3_000_000;
-/// The maximum total number of positions, in a target search with more than [`DEEP_THINGS`] objects.
+/// The maximum total number of positions, if the search has a target and more than [`DEEP_THINGS`] objects.
 const VAST_SEARCH: usize = 1_500_000_000;
-/// The default number of objects in a puzzle with a target, and the maximum number to which the lower limits apply.
+/// The default number of objects in a puzzle with a target. It is also the maximum number of objects to which the lower
+/// limits apply.
 const DEEP_THINGS: usize = 3;
-/// The number of additional pushes required from the next floor plan after a plan with enough pushes but too few
+/// The number of additional pushes that a floor plan must have after an earlier one had enough pushes but too few
 /// actions.
 const RAISE: usize = 3;
 
-/// Levels for games won by pushing objects to their destinations (Sokoban and its relatives).
+/// Levels for games that are won by pushing objects to their destinations (Sokoban and its relatives).
 ///
 /// Simulated annealing optimises the floor plan for the number of pushes from its farthest position. That number is
 /// exact, because all positions are searched backwards from all solved positions (Taylor and Parberry 2011, "Procedural
-/// generation of Sokoban levels"). Among the farthest positions, the position that takes the avatar the most steps
-/// becomes the level. Each level has been won in the game itself.
+/// generation of Sokoban levels"). Among the farthest positions, the one that takes the avatar the most steps becomes
+/// the level. Each level has been won in the game itself.
 ///
 /// Cost: about a tenth of a millisecond per 8×8 floor plan with three objects. A level takes at most about a second,
 /// because the number of positions to search is limited.
@@ -126,8 +128,8 @@ impl<'a> PuzzleVariation<'a> {
     }
 
     /// Generates the level for a seed, with a winning sequence of actions. The sequence uses the minimum number of
-    /// pushes, but not always the minimum number of actions. Returns `None` if no level is found, or if no level meets
-    /// the target.
+    /// pushes, but not always the minimum number of actions. Returns `None` if no level is found or none meets the
+    /// target.
     pub fn create_solved(&self, seed: Seed) -> Option<Solved> {
         if self.puzzle.target.is_some() {
             return self.made(seed, self.puzzle.floor_plans, self.puzzle.target);
@@ -347,8 +349,8 @@ impl Variation for PuzzleVariation<'_> {
         varied.unwrap_or_else(|| parent.clone())
     }
 
-    /// Creates a level from halves of two floor plans, with a small change. Mutates the first level if the two halves
-    /// do not fit together.
+    /// Creates a level from halves of two floor plans, with a small change. Mutates the first level if the halves do
+    /// not fit together.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.floor_plan_of(one), self.floor_plan_of(two));
         let fit = first
@@ -364,7 +366,8 @@ impl Variation for PuzzleVariation<'_> {
     }
 }
 
-/// Returns the limits for a target search with the given objects: the number of positions per floor plan, and in total.
+/// Returns the limits of a search that has a target, for the given numbers of objects: the number of positions per
+/// floor plan, and in total.
 fn deep(counts: [usize; KINDS]) -> (usize, usize) {
     match counts.iter().sum::<usize>() {
         ..=DEEP_THINGS => (DEEP_POSITIONS, DEEP_SEARCH),

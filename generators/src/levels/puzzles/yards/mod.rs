@@ -1,5 +1,5 @@
-//! Yards that meet a target. The player carries parcels past carts whose course must be predicted, with hardly any
-//! time to spare.
+//! Yards that meet a target. The player carries parcels past carts whose course must be predicted, with little time to
+//! spare.
 
 mod timetable;
 mod yard;
@@ -27,11 +27,12 @@ base::with_defaults! {
         pub carts: usize = 4,
         /// The minimum and maximum number of strays. A level gets the largest number of strays that keeps it fair.
         pub strays: (usize, usize) = (4, 10),
-        /// The minimum fraction of the win's ticks at which staying in place for ten ticks would be fatal.
+        /// The minimum fraction of the win's ticks from which staying in place for ten ticks would be fatal.
         pub exposure: f64 = 0.2,
         /// The minimum fraction of episodes won by a careful player that looks before every action.
         pub fairness: f64 = 0.4,
-        /// The commitments for which the careful player's win rate is measured.
+        /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
+        /// between two looks.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of yards to draw per level.
         pub yards: u64 = 2_000,
@@ -40,13 +41,13 @@ base::with_defaults! {
 
 /// The minimum side length of a board, including the fuse row. Smaller boards have no room for tracks.
 const LEAST_SIDE: usize = 6;
-/// The number of inner cells on a board that gets the configured number of carts.
+/// The number of inner cells on a board of typical size, which gets the configured number of carts.
 const USUAL: f64 = 80.0;
-/// The number of ticks of staying in place assumed by [`YardConfig::exposure`].
+/// The number of ticks of staying in place to which [`YardConfig::exposure`] refers.
 const WAIT: usize = 10;
-/// The number of ticks in the fastest win per spare tick.
+/// The number of ticks in the fastest win for each spare tick.
 const DETOURS: usize = 6;
-/// The maximum number of carts. Prompts list the directions of at most this number of sprites per type.
+/// The maximum number of carts. Prompts list the directions of at most that many sprites per type.
 const CARTS: usize = 8;
 /// The maximum number of parcels. Each parcel doubles the time of the win search.
 const PARCELS: usize = 6;
@@ -54,9 +55,9 @@ const PARCELS: usize = 6;
 const PLAYS: usize = 40;
 /// The number of episodes played by the careful player per measured commitment.
 const MEASURED: usize = 200;
-/// The number of attempts to furnish the same tracks.
+/// The number of attempts to furnish each layout of tracks.
 const FURNISHED: usize = 4;
-/// The maximum length of a fastest win in ticks, as a multiple of the number of steps needed without carts.
+/// The maximum length of a fastest win in ticks, as a multiple of the number of steps that it would take without carts.
 const DELAY: f64 = 1.5;
 
 /// A yard in the characters of [`YardRules::game`], with a winning sequence of actions.
@@ -72,8 +73,8 @@ pub struct YardLevel {
 
 impl YardConfig {
     /// Generates the level for a seed, by drawing yards until one meets the target. Returns `None` if all drawn yards
-    /// miss the target, or if a side has fewer than 6 cells. Cost: a hundredth of a second per yard with unobstructed
-    /// carts, and up to a second more for each yard that meets the rest of the target.
+    /// miss the target, or if a side has fewer than 6 cells. Cost: a hundredth of a second per yard whose carts run
+    /// without conflict, and up to a second more for each yard that meets the rest of the target.
     pub fn level(&self, rules: YardRules, seed: Seed) -> Option<YardLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -126,9 +127,9 @@ impl YardConfig {
     fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
         let inner = (grid.columns - 2) * (grid.rows - 2);
         let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;
-        // With more kinds of depots, the avatar makes fewer steps without a load.
+        // If there are more kinds of depots, the avatar takes fewer steps without a load.
         let steps = self.decisions.0.max(8) * (2 + rules.kinds()) / 3;
-        // The distance of parcels from their depots is about half of the board's perimeter.
+        // Parcels and their depots are about half of the board's perimeter apart.
         let way = grid.columns + grid.rows - 6;
         let parcels = steps.div_ceil(way).clamp(1, PARCELS);
         Furniture { carts: carts.min(CARTS), parcels, strays: self.strays.1, steps }
@@ -180,7 +181,7 @@ fn text(yard: &Yard, length: usize) -> String {
 mod tests {
     use super::*;
 
-    /// The careful player wins as many episodes in the game as in the generator.
+    /// The careful player's win rate is the same in the game as in the generator.
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const FUSE: usize = 6;

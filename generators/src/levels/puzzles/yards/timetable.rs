@@ -1,5 +1,4 @@
-//! A yard's cart timetable and fastest win. The timetable and the win are exact, because the avatar does not influence
-//! the carts.
+//! The timetable of a yard's carts, and a fastest win. Both are exact, because the avatar does not influence the carts.
 
 use super::yard::{RIGHT, Sign, Yard, opposite};
 use crate::levels::grid::WAYS;
@@ -12,19 +11,19 @@ pub(super) struct Timetable {
     cells: usize,
     /// For each tick and cell, `true` if the cell contains a cart after the tick.
     is_busy: Vec<bool>,
-    /// For each cell, the number of ticks after which a cart is in that cell.
+    /// For each cell, the number of ticks after which a cart is in the cell.
     pub(super) visits: Vec<u32>,
 }
 
 /// The value for an empty load.
 const EMPTY: usize = 0;
-/// The minimum fraction of carts that are separate from each other at the end.
+/// The minimum fraction of carts that must still run apart from each other at the end.
 const APART: f64 = 0.75;
 
 impl Timetable {
-    /// Runs the carts for a number of ticks. Returns `None` if two carts enter the same points simultaneously, because
-    /// the outcome would then depend on the rule order, or if too many carts end up running together. Cost: O(ticks ·
-    /// carts²).
+    /// Runs the carts for a number of ticks. Returns `None` if two carts enter the same points in the same tick,
+    /// because the outcome would then depend on the order of rules. Also returns `None` if too many carts end up
+    /// running together. Cost: O(ticks · carts²).
     pub(super) fn of(yard: &Yard, ticks: usize) -> Option<Timetable> {
         let cells = yard.grid.len();
         let mut signs = yard.signs.clone();
@@ -68,7 +67,7 @@ impl Timetable {
         self.is_busy[tick * self.cells + cell]
     }
 
-    /// Returns the fraction of a walk's ticks at which staying in place for the next `wait` ticks would be fatal. The
+    /// Returns the fraction of a walk's ticks from which staying in place for the next `wait` ticks would be fatal. The
     /// walk is given by the cell after each tick.
     pub(super) fn exposure(&self, way: &[usize], wait: usize) -> f64 {
         let ends = |tick: usize| (tick + 1 + wait).min(self.ticks());
@@ -78,14 +77,14 @@ impl Timetable {
     }
 
     /// Returns the steps of a fastest win within the timetable's first `most` ticks, and the cell after each tick.
-    /// Steps are indices into [`WAYS`], or `None` for a tick of rest. Cost: O(ticks · cells · 2^parcels), much less if
-    /// hardly any walk is fast enough.
+    /// Steps are indices into [`WAYS`], or `None` for a tick of rest. Cost: O(ticks · cells · 2^parcels), or much less
+    /// if few walks are fast enough.
     pub(super) fn fastest(&self, yard: &Yard, most: usize) -> Option<(Vec<Option<usize>>, Vec<usize>)> {
         let most = most.min(self.ticks());
         let remaining = Remaining::of(yard);
         let errands = Errands::new(yard, self);
         let mut seen = vec![u32::MAX; errands.states()];
-        // For each tick, the states, each with the index of its predecessor and the step that led to it.
+        // For each tick, the states found, each with the index of its predecessor and the step that led to it.
         let mut layers: Vec<Vec<(u32, u32, Option<usize>)>> = vec![vec![(errands.start() as u32, 0, None)]];
         for tick in 0..most {
             let mut layer = Vec::new();
@@ -111,12 +110,11 @@ impl Timetable {
     }
 }
 
-/// The moves of a yard's avatar, and their results. A state consists of the avatar's cell, the load, and the set of
-/// parcels already taken.
+/// The moves of a yard's avatar. A state consists of the avatar's cell, the load, and the set of parcels already taken.
 pub(super) struct Errands<'a> {
     yard: &'a Yard,
     timetable: &'a Timetable,
-    /// For each cell, its parcel's index and kind; `None` for cells without a parcel.
+    /// For each cell, the index and the kind of its parcel; `None` for cells without a parcel.
     parcels: Vec<Option<(usize, usize)>>,
 }
 
@@ -129,7 +127,7 @@ impl<'a> Errands<'a> {
         Errands { yard, timetable, parcels }
     }
 
-    /// Returns the number of possible loads: one for carrying nothing, plus one for each kind of parcel.
+    /// Returns the number of possible loads: one for no load, and one for each kind of parcel.
     fn loads(&self) -> usize {
         self.yard.depots.len() + 1
     }
@@ -162,7 +160,7 @@ impl Moves for Errands<'_> {
         state % self.timetable.cells
     }
 
-    /// Returns `true` if a state is won: all parcels are at their depots.
+    /// Returns `true` if a state is won, which means that all parcels are at their depots.
     fn is_won(&self, state: usize) -> bool {
         let (_, load, taken) = self.unpack(state);
         taken == self.all() && load == EMPTY
@@ -199,8 +197,8 @@ impl Moves for Errands<'_> {
 
 /// A lower bound on the remaining steps.
 struct Remaining {
-    /// For each set of taken parcels, the total length of two kinds of walks: from the remaining parcels to their
-    /// depots, and from the nearest depots to these parcels.
+    /// For each set of taken parcels, the total length of the walks from the remaining parcels to their depots and from
+    /// the nearest depots to these parcels.
     tours: Vec<usize>,
     /// For each depot, the number of steps from each cell.
     steps: Vec<Vec<u32>>,
@@ -220,8 +218,9 @@ impl Remaining {
         Remaining { tours, steps }
     }
 
-    /// Returns the lower bound for a state. The first walk to a parcel begins at the avatar instead of a depot. By the
-    /// triangle inequality, the saving is at most the distance between the avatar and the nearest depot.
+    /// Returns the lower bound for a state. If the avatar has no load, the first walk to a parcel begins at the avatar
+    /// instead of a depot. By the triangle inequality, this saves at most the distance between the avatar and the
+    /// nearest depot.
     fn least(&self, taken: usize, load: usize, cell: usize) -> usize {
         let tours = self.tours[taken];
         match load {

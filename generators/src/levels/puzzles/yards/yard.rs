@@ -6,10 +6,10 @@ use base::Sampler;
 
 /// The index of the rightward step in [`WAYS`].
 pub(super) const RIGHT: usize = 3;
-/// The fraction of walls among the inner cells.
+/// The fraction of the inner cells that are walls.
 const WALLS: f64 = 0.14;
 
-/// The minimum number of cart visits at which a cell counts as frequented.
+/// The minimum number of cart visits at which a cell counts as busy.
 const OFTEN: u32 = 6;
 
 /// The minimum distance between strays and the avatar.
@@ -25,7 +25,7 @@ pub(super) enum Sign {
 }
 
 impl Sign {
-    /// Returns the directions in which carts leave.
+    /// Returns the directions in which carts can leave the sign.
     fn exits(self) -> impl Iterator<Item = usize> {
         let (one, other) = match self {
             Sign::Fixed(way) => (way, None),
@@ -40,7 +40,7 @@ pub(super) fn opposite(way: usize) -> usize {
     (way + 2) % WAYS.len()
 }
 
-/// A cart at its start, where a sign turns it right.
+/// A cart at its start, where a sign turns it to the right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Cart {
     pub(super) start: usize,
@@ -67,7 +67,7 @@ pub(super) struct Yard {
     pub(super) carts: Vec<Cart>,
     /// The avatar's initial cell.
     pub(super) start: usize,
-    /// The cells and kinds of parcels.
+    /// The cell and the kind of each parcel.
     pub(super) parcels: Vec<(usize, usize)>,
     /// The cells of depots, by kind.
     pub(super) depots: Vec<usize>,
@@ -98,7 +98,7 @@ impl Yard {
         (0..self.grid.len()).filter(|&cell| self.is_floor[cell]).collect()
     }
 
-    /// Returns the cells ahead of a cell, up to a wall.
+    /// Returns the cells ahead of a cell, up to the next wall.
     fn ahead(&self, cell: usize, way: usize) -> Vec<usize> {
         let mut cells = Vec::new();
         let mut at = cell;
@@ -167,8 +167,8 @@ impl Yard {
         Some(signs[sampler.weighted(&weights)?])
     }
 
-    /// Places depots, the avatar, parcels far from their depots, and strays, preferably in cells frequented by carts.
-    /// `visits` contains the number of cart visits per cell.
+    /// Places depots, the avatar, parcels far from their depots, and strays, preferably in cells that carts visit
+    /// often. `visits` contains the number of cart visits per cell.
     pub(super) fn furnish(
         &mut self,
         rules: YardRules,
@@ -191,7 +191,7 @@ impl Yard {
         for number in 0..furniture.parcels {
             let kind = number % rules.kinds();
             let steps = self.grid.flood(&[self.depots[kind]], |cell| self.is_floor[cell]);
-            // The target is the mean of the missing steps, or slightly more.
+            // The target distance is the mean of the missing steps, or slightly more.
             let mean = missing.div_ceil(2 * (furniture.parcels - number)) as u32;
             let fits = |cell: &usize| (mean..mean + 3).contains(&steps[*cell]);
             let at = free.iter().position(fits)?;
