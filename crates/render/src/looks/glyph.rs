@@ -3,7 +3,7 @@
 use super::art::Art;
 use super::colour;
 use super::colour::Colour;
-use super::wins;
+use super::{remarks, wins};
 use crate::looks::art::{creatures, ground, passages, shots, things};
 use engine::analysis::{EffectSummary, Harm, Key, Motion, Role, Steering};
 use engine::{Analysis, SpriteClass, SpriteType};
@@ -60,7 +60,8 @@ glyphs! {
     Prey, "a startled creature with a star", "catch or hit it to win", YELLOW, "◎ ", "& ", creatures::prey;
     Target, "rings with a star", "must go for the win", YELLOW, "⊛ ", "()", things::target;
     Peril, "spiked rings with a star", "harms, and must go for the win", VERMILION, "✶ ", "(^", things::peril;
-    Socket, "a sunken square with a star", "push things here", SKY, "□ ", "_ ", passages::socket;
+    Socket, "a sunken square with a star", "push things here to win", SKY, "□ ", "_ ", passages::socket;
+    Slot, "a sunken square", "push things here, or lose them here", SKY, "⊔ ", "U ", passages::slot;
     Ward, "a shield with a heart", "keep it safe", SKY, "♥ ", "V ", things::ward;
     Enemy, "a spiky creature with angry eyes", "moves and harms", VERMILION, "Ж ", "M ", creatures::enemy;
     Charger, "an angry head with a pointed snout", "runs ahead, harms", VERMILION, "Ж ", "M>", creatures::charger;
@@ -98,12 +99,14 @@ glyphs! {
 
 impl Glyph {
     /// Chooses the glyph of a sprite type, first by its role, and then by its movement and its purpose. A type gets
-    /// no star if the game is always lost before the type can win it.
+    /// no star if it cannot contribute to a win.
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
         let glyph = Glyph::by_role(analysis, stype);
         let plain = match glyph {
             Glyph::Exit | Glyph::Treasure => Glyph::Gem,
             Glyph::Prey => Glyph::Friend,
+            Glyph::Socket if remarks::is_socket_of_win(analysis, stype) => return glyph,
+            Glyph::Socket => return Glyph::Slot,
             Glyph::Target => Glyph::Neutral,
             Glyph::Peril => Glyph::Hazard,
             _ => return glyph,

@@ -289,21 +289,32 @@ pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Option<Str
     }
 }
 
+/// Returns `true` if pushing something onto the type contributes to a win.
+pub(super) fn is_socket_of_win(analysis: &Analysis, stype: SpriteType) -> bool {
+    !pushed_into(analysis, stype, |of, sink| wins_by_push(analysis, of, sink)).is_empty()
+}
+
+/// Returns the types that can be pushed onto the type, and whose sink there is wanted.
+fn pushed_into(
+    analysis: &Analysis,
+    stype: SpriteType,
+    wanted: impl Fn(SpriteType, &Sink) -> bool,
+) -> Vec<SpriteType> {
+    let sunk = |pushable: &&Pushable| {
+        pushable.sinks.iter().any(|sink| sink.partner == stype && wanted(pushable.stype, sink))
+    };
+    analysis.pushables().iter().filter(sunk).map(|pushable| pushable.stype).collect()
+}
+
 /// Describes where to push sprites that change or fill a type, and states whether the push brings a win
 /// closer.
 pub(super) fn socket(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     if analysis.facts(stype).fleeting {
         return Some("soon gone".to_owned());
     }
-    let pushed = |wanted: &dyn Fn(&Pushable, &Sink) -> bool| -> Vec<SpriteType> {
-        let sunk = |pushable: &&Pushable| {
-            pushable.sinks.iter().any(|sink| sink.partner == stype && wanted(pushable, sink))
-        };
-        analysis.pushables().iter().filter(sunk).map(|pushable| pushable.stype).collect()
-    };
-    let wins = pushed(&|pushable, sink| wins_by_push(analysis, pushable.stype, sink));
-    let good = pushed(&|pushable, sink| !is_lost(analysis, pushable.stype, sink));
-    let lost = pushed(&|pushable, sink| is_lost(analysis, pushable.stype, sink));
+    let wins = pushed_into(analysis, stype, |of, sink| wins_by_push(analysis, of, sink));
+    let good = pushed_into(analysis, stype, |of, sink| !is_lost(analysis, of, sink));
+    let lost = pushed_into(analysis, stype, |of, sink| is_lost(analysis, of, sink));
     if let Some(wins) = names(analysis, &wins) {
         return Some(format!("push {wins} here to win"));
     }

@@ -80,8 +80,12 @@ pub(crate) fn maker(art: &mut Art) {
 
 /// Draws a hole in the ground. It is dark at the top, where the rim casts its shadow.
 pub(crate) fn socket(art: &mut Art) {
+    slot(art);
+    art.star(0.5, 0.54, 0.28);
+}
+
+pub(crate) fn slot(art: &mut Art) {
     let main = art.main();
     art.solid(Outline::rounded(0.07, 0.07, 0.86, 0.86, 0.1), main.shade());
     art.fill(Outline::rounded(0.14, 0.2, 0.72, 0.66, 0.06), main.mixed(INK, 15));
-    art.star(0.5, 0.54, 0.28);
 }
