@@ -12,9 +12,19 @@ use crate::rules::{Counting, Rules, SpriteType, Timed};
 /// earlier line already contains one of its pairs, a line runs at several positions and gets one sentence for
 /// each.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
+    by_line(analysis).map(|(_, sentence)| sentence).collect()
+}
+
+/// Returns the sentences of one interaction line, in order of execution.
+pub(super) fn meetings_of(analysis: &Analysis, line: usize) -> Vec<String> {
+    by_line(analysis).filter(|(own, _)| *own == line).map(|(_, sentence)| sentence).collect()
+}
+
+/// Returns the sentences of [`meetings`], each with its interaction line.
+fn by_line(analysis: &Analysis) -> impl Iterator<Item = (usize, String)> + '_ {
     let parts = analysis.encounters().chunk_by(|one, next| one.line == next.line);
     let parts = parts.map(|part| (part[0].line, part.iter().collect::<Vec<&Encounter>>()));
-    parts.filter_map(|(line, encounters)| meeting(analysis, line, &encounters)).collect()
+    parts.filter_map(|(line, encounters)| Some((line, meeting(analysis, line, &encounters)?)))
 }
 
 fn meeting(analysis: &Analysis, line: usize, encounters: &[&Encounter]) -> Option<String> {
