@@ -9,6 +9,7 @@
 
 mod boards;
 mod check;
+mod dataset;
 mod draft;
 mod draw;
 mod place;
@@ -19,5 +20,6 @@ mod view;
 mod wins;
 
 pub use check::{is_right, read};
+pub use dataset::{QuestionOrigin, dataset};
 pub use draw::{QuestionOrder, draw};
 pub use question::{Evidence, OptionSource, Question, QuestionKind};

@@ -2,7 +2,7 @@
 
 use crate::sweeping;
 use base::Seed;
-use engine::{Action, Game, Level, Outcome, State};
+use engine::{Action, Game, Level, Observation, Outcome, State};
 use evaluation::encoding::grid;
 use evaluation::legend::{Legend, LegendOptions};
 use evaluation::questions::{OptionSource, Question, QuestionKind, QuestionOrder, draw, is_right};
@@ -189,10 +189,25 @@ fn recordings_single_out_one_rule() {
         let all: Vec<Vec<String>> = question.check.options.iter().map(boards).collect();
         let shown = rows_of_last_recording(&question.prompt);
         let matching: Vec<usize> = (0..4).filter(|&at| rows(&all[at]) == shown).collect();
-        assert!(matching.contains(&letter(question)), "{}: {matching:?}", question.id);
+        assert!(matching.contains(&letter(question)), "{}: {matching:?}\n{}", question.id, question.prompt);
         let texts: BTreeSet<&String> = question.options.iter().collect();
         assert_eq!(texts.len(), 4, "{}", question.id);
+        let seen: Vec<_> =
+            question.check.options.iter().map(|option| observations(subject, level, option)).collect();
+        let is_unlike = |at: usize| seen[at + 1..].iter().all(|other| *other != seen[at]);
+        assert!((0..4).all(is_unlike), "{}", question.id);
     }
+}
+
+/// Returns all observations of an option's recording.
+fn observations(subject: &Subject, level: &Level, option: &OptionSource) -> Vec<Observation> {
+    let game = game_of(subject, option);
+    let mut state = game.start(level, Seed::from_text("brute force"));
+    let play = |&action| {
+        game.step(&mut state, action);
+        game.observe(&state)
+    };
+    option.actions.iter().map(play).collect()
 }
 
 /// Returns the changed rows of each tick, as a prompt shows them.
@@ -204,17 +219,16 @@ fn rows(boards: &[String]) -> Vec<Vec<String>> {
     boards.windows(2).map(changed).collect()
 }
 
+/// Returns the changed rows of each tick in the last recording of a prompt.
 fn rows_of_last_recording(prompt: &str) -> Vec<Vec<String>> {
-    let recording =
-        prompt.rsplit("ecording\n").next().expect("a recording").split("## Question").next().expect("text");
-    let ticks = recording.split("\nTick ").skip(1);
-    ticks
-        .map(|tick| {
-            tick.split_inclusive('\n')
-                .filter_map(|line| Some(line[line.find("row ")?..].trim_end().to_owned()))
-                .collect()
-        })
-        .collect()
+    let recording = &prompt[prompt.rfind("ecording\n").expect("a recording")..];
+    let recording = recording.split("\n\n## Question").next().expect("text");
+    let rows = |tick: &str| {
+        let (_, changes) = tick.split_once(": ").expect("a colon after the action");
+        let lines = changes.lines().map(str::trim);
+        lines.filter(|line| line.starts_with("row ")).map(str::to_owned).collect()
+    };
+    recording.split("\nTick ").skip(1).map(rows).collect()
 }
 
 #[test]
