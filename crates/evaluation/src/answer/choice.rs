@@ -37,39 +37,32 @@ pub fn read_choice(text: &str, words: &[&str]) -> Reading<usize> {
         return Reading::Strict(choice);
     }
     let said = folded(said);
-    let position = |word: &str| words.iter().position(|known| known.eq_ignore_ascii_case(word));
-    let (word, rest, stage) = match MARK.find_iter(&said).last() {
-        Some(mark) => {
-            let Some(found) = WORD.captures(&said[mark.end()..]) else {
-                return Reading::Invalid { why: "it names no answer".to_owned() };
-            };
-            let of = |name| found.name(name).map_or("", |part| part.as_str()).to_owned();
-            (of("word"), of("rest"), Stage::Marker)
-        }
-        None => {
-            let last = said.lines().next_back().unwrap_or_default();
-            let word = ALONE.captures(last).map(|found| found["word"].to_owned());
-            let word = word.filter(|word| word.len() > 1 || words.contains(&word.as_str()));
-            (word.unwrap_or_default(), String::new(), Stage::Words)
-        }
+    let Some((word, rest, stage)) = stated(&said, words) else {
+        return Reading::Invalid { why: "it names no answer".to_owned() };
     };
-    let Some(choice) = position(&word) else {
-        let why = if word.is_empty() {
-            "it names no answer".to_owned()
-        } else {
-            format!("`{}` is not among the answers", quoted(&word))
-        };
-        return Reading::Invalid { why };
+    let Some(choice) = words.iter().position(|known| known.eq_ignore_ascii_case(word)) else {
+        return Reading::Invalid { why: format!("`{}` is not among the answers", quoted(word)) };
     };
-    let others = rest.split(|c: char| !c.is_alphanumeric()).filter_map(|other| {
+    // A letter can be an article, so only upper-case letters count in the rest of the line.
+    let is_other = |other: &str| {
         let is_like =
-            |known: &&str| known == &other || (known.len() > 1 && known.eq_ignore_ascii_case(other));
-        words.iter().position(|known| is_like(&known))
-    });
-    if others.into_iter().any(|other| other != choice) {
+            |known: &&str| known.eq_ignore_ascii_case(other) && (other.len() > 1 || *known == other);
+        words.iter().position(is_like).is_some_and(|other| other != choice)
+    };
+    if rest.split(|c: char| !c.is_alphanumeric()).any(is_other) {
         return Reading::Invalid { why: "it names several answers".to_owned() };
     }
     Reading::Tolerant { choice, stage }
+}
+
+/// Returns the word that an answer states, the rest of its line, and the rule that found it.
+fn stated<'a>(said: &'a str, words: &[&str]) -> Option<(&'a str, &'a str, Stage)> {
+    if let Some(mark) = MARK.find_iter(said).last() {
+        let found = WORD.captures(&said[mark.end()..])?;
+        return Some((found.name("word")?.as_str(), found.name("rest")?.as_str(), Stage::Marker));
+    }
+    let word = ALONE.captures(said.lines().next_back()?)?.name("word")?.as_str();
+    (word.len() > 1 || words.contains(&word)).then_some((word, "", Stage::Words))
 }
 
 /// Reads a board of the given size: the last lines of the answer that have as many characters as the board has columns.
@@ -81,7 +74,7 @@ pub fn read_board(text: &str, columns: usize, rows: usize) -> Reading<String> {
     let said = mark.map_or(said, |mark| &said[mark.end()..]);
     let packed = |line: &str| line.chars().filter(|c| !c.is_whitespace()).collect::<String>();
     let lines: Vec<String> = said.lines().map(packed).collect();
-    let is_row = |line: &&String| line.chars().count() == columns;
+    let is_row = |line: &&String| line.chars().count() == columns && !line.starts_with("```");
     let runs = lines.iter().chunk_by(is_row);
     let runs: Vec<Vec<&String>> =
         runs.into_iter().filter(|(is_row, _)| *is_row).map(|(_, run)| run.collect()).collect();

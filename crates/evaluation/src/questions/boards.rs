@@ -43,7 +43,13 @@ pub(super) fn board_choice(place: Place<'_>, sampler: &mut Sampler) -> Option<Ve
     let parts = [position(place, &before)?, asked(&actions) + " Which board follows?"];
     let how = "Play `before` and then `actions` from the start of the level: the board is the answer. The other options follow from their own actions, or without one interaction.";
     let evidence = Evidence { how: how.to_owned(), before, actions, ..Evidence::default() };
-    Some(vec![Draft::new(place, &place.game.section("Rules"), &parts, Form::Options(peers), evidence)])
+    Some(vec![Draft::new(
+        place,
+        &place.game.section("Rules"),
+        &parts,
+        Form::Options(Box::new(peers)),
+        evidence,
+    )])
 }
 
 type Peers = [(String, OptionSource); 4];

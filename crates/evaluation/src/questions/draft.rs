@@ -27,7 +27,7 @@ pub(super) enum Form {
     /// Yes or no.
     YesNo(bool),
     /// Four options, of which the first is right.
-    Options([(String, OptionSource); 4]),
+    Options(Box<[(String, OptionSource); 4]>),
 }
 
 impl Draft {

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// The number of attempts that run in parallel. The result does not depend on the number of threads.
-const BLOCK: u64 = 64;
+const BLOCK: u64 = 32;
 
 /// The maximum number of attempts per requested question, in addition to one block.
 const ATTEMPTS: u64 = 40;

@@ -24,7 +24,6 @@ pub(super) struct QuestionGame<'a> {
 pub(super) struct QuestionLevel<'a> {
     pub(super) source: &'a SubjectLevel,
     pub(super) start: State,
-    pub(super) pushes: Pushes,
     /// Some win, if a short search finds one.
     win: Vec<Action>,
 }
@@ -91,7 +90,7 @@ impl<'a> QuestionLevel<'a> {
             _ => best_first(analysis, &pushes, &start, limits).answer,
         };
         let win = if let Answer::Won { actions, .. } = won { actions } else { Vec::new() };
-        Some(QuestionLevel { source: level, start, pushes, win })
+        Some(QuestionLevel { source: level, start, win })
     }
 }
 

@@ -46,7 +46,13 @@ pub(super) fn changed_rule(place: Place<'_>, sampler: &mut Sampler) -> Option<Ve
     ];
     let how = "Play `actions` from the start of the level without each option's interaction: only the answer's gives the second recording.";
     let evidence = Evidence { how: how.to_owned(), actions, ..Evidence::default() };
-    Some(vec![Draft::new(place, &place.game.section("Rules"), &parts, Form::Options(options), evidence)])
+    Some(vec![Draft::new(
+        place,
+        &place.game.section("Rules"),
+        &parts,
+        Form::Options(Box::new(options)),
+        evidence,
+    )])
 }
 
 /// Draws a question about the behaviour of a sprite in a recording. The game is drawn among four variants of a released
@@ -71,18 +77,18 @@ pub(super) fn sprite_behaviour(place: Place<'_>, sampler: &mut Sampler) -> Optio
     );
     let shown = recording(&found[0].1, &actions);
     let options = found.map(|(variant, _)| (variant.told, source(&actions, &variant.vgdl)));
-    let parts =
-        [format!("## Recording\n{shown}"), format!("## Question\nThe rules above are incomplete. {about}")];
+    let parts = [format!("## Recording\n{shown}"), format!("## Question\n{about}")];
     let how = "Play `actions` from the start of the level in each option's game: only the answer's gives the recording.";
     let evidence = Evidence { how: how.to_owned(), actions, ..Evidence::default() };
-    Some(vec![Draft::new(place, &rules, &parts, Form::Options(options), evidence)])
+    Some(vec![Draft::new(place, &rules, &parts, Form::Options(Box::new(options)), evidence)])
 }
 
 fn source(actions: &[Action], vgdl: &str) -> OptionSource {
     OptionSource { actions: actions.to_vec(), without: None, vgdl: vgdl.to_owned() }
 }
 
-/// Returns the rules that the variants of a game share, as a section of a prompt.
+/// Returns the rules that the variants of a game share, as a section of a prompt. Sentences about all other sprites are
+/// omitted, because the sprite in question may be an exception.
 fn common_rules(guides: &[Guide; 4]) -> String {
     let shared = |of: fn(&Guide) -> &Vec<String>| {
         let is_shared = |line: &&String| guides.iter().all(|guide| of(guide).contains(line));
@@ -93,7 +99,7 @@ fn common_rules(guides: &[Guide; 4]) -> String {
         winning: shared(|guide| &guide.winning),
         losing: shared(|guide| &guide.losing),
         order: shared(|guide| &guide.order),
-        sprites: shared(|guide| &guide.sprites),
+        sprites: shared(|guide| &guide.sprites).into_iter().filter(|line| line.starts_with("The ")).collect(),
         groups: shared(|guide| &guide.groups),
         timed_effects: shared(|guide| &guide.timed_effects),
         meetings: shared(|guide| &guide.meetings),

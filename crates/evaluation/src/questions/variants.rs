@@ -74,7 +74,7 @@ fn of_effect(place: Place<'_>, actions: &[Action], sampler: &mut Sampler) -> Opt
     let written = own.interactions[line].effect.text.as_str();
     let others = EFFECTS.into_iter().filter(|&effect| effect != written);
     let variants = std::iter::once(written).chain(others).filter_map(change).collect();
-    Some(("Which of these sentences completes them?".to_owned(), variants))
+    Some(("The rules above lack one rule for sprites that meet. Which is it?".to_owned(), variants))
 }
 
 fn of_class(place: Place<'_>, sampler: &mut Sampler) -> Option<(String, Vec<Variant>)> {
@@ -98,7 +98,7 @@ fn of_class(place: Place<'_>, sampler: &mut Sampler) -> Option<(String, Vec<Vari
         };
         variant(&description, told)
     };
-    let about = format!("Which of these sentences is true of the {name}?");
+    let about = format!("The rules above do not say how the {name} moves by itself. Which sentence is true?");
     Some((about, CLASSES.into_iter().filter_map(change).collect()))
 }
 

@@ -1,18 +1,23 @@
-//! Questions about wins, each answered by a win or by an exhaustive search.
+//! Questions about wins, each answered by a win or by an exhaustive search. The searches use no bounds, so that plain
+//! searches confirm them.
 
 use super::boards::position;
 use super::draft::{Draft, Form};
 use super::place::Place;
 use super::question::Evidence;
-use agents::search::{Answer, SearchLimits, Searched, a_star, best_first};
+use agents::search::{Answer, Pushes, SearchLimits, Searched, a_star, best_first};
 use base::Sampler;
 use engine::{Action, State};
+use std::collections::BTreeSet;
 
 /// The maximum number of forward-model calls per search.
 const CALLS: u64 = 10_000;
 
 /// The maximum number of positions to examine for a pair of questions.
 const POSITIONS: usize = 12;
+
+/// The number of searches without an answer after which the level is abandoned.
+const UNKNOWN: usize = 3;
 
 /// The maximum number of actions before a position.
 const BEFORE: usize = 24;
@@ -25,15 +30,20 @@ const SHORTEST: std::ops::RangeInclusive<usize> = 2..=12;
 pub(super) fn winnable(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let length = sampler.between(1, BEFORE);
     let (mut won, mut lost) = (None, None);
+    let (mut seen, mut unknown) = (BTreeSet::new(), 0);
     for _ in 0..POSITIONS {
         let before = place.walk(length, sampler);
         let Some(state) = place.after(&before) else { continue };
+        if unknown == UNKNOWN || !seen.insert(state.search_key(place.rules())) {
+            continue;
+        }
         let searched =
-            best_first(&place.game.subject.analysis, &place.level.pushes, &state, SearchLimits::calls(CALLS));
+            best_first(&place.game.subject.analysis, &Pushes::default(), &state, SearchLimits::calls(CALLS));
         match searched.answer {
             Answer::Won { actions, .. } if won.is_none() => won = Some((before, actions)),
             Answer::Impossible if lost.is_none() => lost = Some((before, searched.states)),
-            _ => {}
+            Answer::OutOfCalls | Answer::OutOfMemory => unknown += 1,
+            Answer::Won { .. } | Answer::Impossible => {}
         }
         if won.is_some() && lost.is_some() {
             break;
@@ -97,7 +107,7 @@ pub(super) fn win_within(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<
 fn shortest_win(place: Place<'_>, state: &State) -> Option<(Vec<Action>, u64)> {
     let limits = SearchLimits::calls(CALLS);
     let Searched { answer, states, .. } =
-        a_star(&place.game.subject.analysis, &place.level.pushes, state, limits);
+        a_star(&place.game.subject.analysis, &Pushes::default(), state, limits);
     match answer {
         Answer::Won { actions, shortest: true } if SHORTEST.contains(&actions.len()) => {
             Some((actions, states))

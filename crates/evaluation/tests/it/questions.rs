@@ -102,10 +102,10 @@ fn search(game: &Game, start: State, limit: usize, states: usize) -> Result<Opti
 
 #[test]
 fn every_kind_has_questions() {
+    let least = if sweeping() { 2000 } else { 24 };
     for kind in QuestionKind::ALL {
         let found = by_kind().get(&kind).map_or(0, Vec::len);
-        eprintln!("{}: {found}", kind.name());
-        assert!(found >= 24, "{}: {found}", kind.name());
+        assert!(found >= least, "{}: {found}", kind.name());
     }
     let ids: BTreeSet<&str> = QUESTIONS.iter().map(|question| question.id.as_str()).collect();
     let prompts: BTreeSet<&str> = QUESTIONS.iter().map(|question| question.prompt.as_str()).collect();
@@ -168,14 +168,13 @@ fn wins_replay_and_searches_are_confirmed() {
             continue;
         }
         let limit = check.within.map_or(usize::MAX, |within| within as usize);
-        match search(&subject.game, position, limit, if sweeping() { 200_000 } else { 4_000 }) {
+        match search(&subject.game, position, limit, if sweeping() { 400_000 } else { 20_000 }) {
             Ok(found) => assert_eq!(found, None, "{}", question.id),
             Err(()) => open += 1,
         }
         proved += 1;
     }
-    eprintln!("{proved} negative answers, {open} of them beyond the plain search's limit");
-    assert!(open * 2 <= proved, "{open} of {proved}");
+    assert!(open * 4 <= proved, "{open} of {proved}");
 }
 
 #[test]
