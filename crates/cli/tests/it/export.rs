@@ -203,7 +203,7 @@ fn questions_are_written_and_answers_are_checked() {
     });
     fs::write(folder.join("answers.jsonl"), given.skip(1).collect::<String>()).unwrap();
     let check = [&order[..], &["--check", "answers.jsonl", "--json"]].concat();
-    let report: Value = serde_json::from_str(text(&run(folder, &check, 0).stdout)).unwrap();
+    let report: Value = serde_json::from_slice(&run(folder, &check, 0).stdout).unwrap();
     let of = |kind: &str, count: &str| report["kinds"][kind][count].as_u64().unwrap();
     assert_eq!((of("next-board", "right"), of("next-board", "unanswered")), (1, 1));
     assert_eq!((of("winnable", "right"), of("winnable", "unreadable")), (1, 1));

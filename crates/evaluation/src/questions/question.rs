@@ -10,9 +10,9 @@ base::named_enum! {
         NextBoard = "next-board",
         /// The board after given actions, to be chosen among four boards.
         BoardChoice = "board-choice",
-        /// Whether a position can still be won: yes or no.
+        /// The possibility of a win from a position: yes or no.
         Winnable = "winnable",
-        /// Whether a position can be won within a number of actions: yes or no.
+        /// The possibility of a win within a number of actions: yes or no.
         WinWithin = "win-within",
         /// The rule, among four, that is switched off in the second of two recordings.
         ChangedRule = "changed-rule",
