@@ -20,6 +20,7 @@ pub mod metrics;
 pub mod player;
 pub mod predictions;
 pub mod prompt;
+pub mod questions;
 pub mod reference;
 pub mod run;
 pub mod scale;

@@ -1,5 +1,5 @@
 """Evaluation tasks for Inspect AI: ``infinite_arcade/starter``, ``infinite_arcade/snapshot``,
-``infinite_arcade/corpus``.
+``infinite_arcade/corpus``, ``infinite_arcade/questions``.
 
 A sample is a level, and its ID is the digest of the level. On the track ``discover``, a sample is a series of levels,
 and its ID is the digest of the last level. An epoch is a run. The suite plays the episodes itself, with the prompts,
@@ -41,16 +41,19 @@ from inspect_ai.model import (
     modelapi,
 )
 from inspect_ai.scorer import Score, Scorer, Target, mean, scorer, stderr
-from inspect_ai.solver import Generate, Solver, TaskState, solver
+from inspect_ai.solver import Generate, Solver, TaskState, generate, solver
 from inspect_ai.tool import ToolChoice, ToolInfo
 from inspect_ai.util import LimitExceededError
 
 from . import _native
 from ._native import ArcadeError, LogError, __version__
 from .games import Game, corpus as corpus_games, load
+from .questions import Questions, is_right
 from .snapshots import open_snapshot
 
-__all__ = ["corpus", "game", "play", "points", "samples", "scripted", "snapshot", "starter", "win"]
+__all__ = [
+    "corpus", "game", "play", "points", "questions", "right", "samples", "scripted", "snapshot", "starter", "win",
+]
 
 #: The name under which a sample's logs are stored.
 LOGS = "infinite_arcade_logs"
@@ -147,6 +150,47 @@ def game(
     """
     options = _options(track, commit, mode, max_steps, seed, reasks)
     return _task([load(path)], None, levels, options, journal, {})
+
+
+@task
+def questions(
+    path: str, count: int = 100, kinds: str | list[str] | None = None, seed: str = "questions"
+) -> Task:
+    """Returns a task with questions about the levels in the folder of a release. Each question has exactly one right
+    answer, and a sample is a question.
+
+    Args:
+        path: the folder of the release, whose digests are checked first.
+        count: the number of questions of each kind.
+        kinds: the only kinds of questions to include (``arcade docs questions``).
+        seed: the text from which the questions are derived.
+    """
+    release = open_snapshot(path)
+    found = (found.compile() for found in release.games())
+    drawn = Questions(found, count=count, kinds=_listed(kinds), seed=seed)
+    shown = ("kind", "game", "level", "options", "answer")
+    rows = [
+        Sample(id=row["id"], input=row["prompt"], target=row["answer"], metadata={key: row[key] for key in shown})
+        for row in drawn.rows
+    ]
+    return Task(
+        dataset=MemoryDataset(rows, name="infinite-arcade-questions"),
+        solver=generate(),
+        scorer=right(),
+        version=__version__,
+        metadata={"suite": __version__, "snapshot": release.root, "release": release.name, "seed": seed},
+    )
+
+
+@scorer(metrics=[mean(), stderr(cluster="game")])
+def right() -> Scorer:
+    """Scores the fraction of right answers to questions. Standard errors are clustered by game."""
+
+    async def score(state: TaskState, target: Target) -> Score:
+        answer = state.output.completion
+        return Score(value=float(is_right(state.metadata, answer)), answer=answer)
+
+    return score
 
 
 def samples(

@@ -28,7 +28,7 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 
 /// A level's number, its text, and the length of its shortest win in ticks, if proved optimal.
-type LevelText = (usize, String, Option<usize>);
+pub(crate) type LevelText = (usize, String, Option<usize>);
 
 /// A message's role, its text, and optionally an image in PNG format.
 type Message<'py> = (&'static str, String, Option<Bound<'py, PyBytes>>);
@@ -141,7 +141,7 @@ impl Order {
 }
 
 /// Reads the subject of an evaluation.
-fn subject(game: &Game, id: &str, levels: &[LevelText]) -> PyResult<Subject> {
+pub(crate) fn subject(game: &Game, id: &str, levels: &[LevelText]) -> PyResult<Subject> {
     let facts =
         SubjectFacts { title: id.to_owned(), as_reference: game.0.as_reference, ..SubjectFacts::default() };
     Subject::read(id, &game.0.source, levels, facts).map_err(failed)

@@ -14,4 +14,5 @@ mod minting;
 mod module;
 mod picture;
 mod planner;
+mod questions;
 mod state;

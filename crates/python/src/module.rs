@@ -23,6 +23,8 @@ mod _native {
     #[pymodule_export]
     use crate::planner::{Planner, planner_names};
     #[pymodule_export]
+    use crate::questions::{draw_questions, is_right_answer, question_kinds};
+    #[pymodule_export]
     use crate::state::State;
 
     /// Adds the constants to the module.

@@ -112,3 +112,9 @@ impl fmt::Display for Guide {
 pub fn describe(game: &Game) -> String {
     Guide::of(game).to_string()
 }
+
+/// Returns the sentences of [`Guide::meetings`] that describe interaction `line`, an index into
+/// [`Description::interactions`](crate::Description). Returns none if the interaction can never occur.
+pub fn interaction(analysis: &Analysis, line: usize) -> Vec<String> {
+    rules::meetings_of(analysis, line)
+}

@@ -13,12 +13,24 @@ use crate::rules::{Counting, Rules, SpriteType, Timed};
 /// runs at several positions if an earlier line already contains one of its pairs, and then gets one sentence
 /// for each position. The three lines of a swap get one sentence.
 pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
+    by_line(analysis).into_iter().map(|(_, sentence)| sentence).collect()
+}
+
+/// Returns the sentences of one interaction line, in order of execution. A line of a swap has no sentence of its own.
+pub(super) fn meetings_of(analysis: &Analysis, line: usize) -> Vec<String> {
+    let sentences = by_line(analysis).into_iter().filter(|(own, _)| *own == Some(line));
+    sentences.map(|(_, sentence)| sentence).collect()
+}
+
+/// Returns the sentences of [`meetings`], each with its interaction line. Swaps have several lines and get `None`.
+fn by_line(analysis: &Analysis) -> Vec<(Option<usize>, String)> {
     let parts = swap::parts(analysis);
     let (mut sentences, mut rest) = (Vec::new(), &parts[..]);
     while let Some(((line, encounters), others)) = rest.split_first() {
         let swap = rest.get(..SWAP).and_then(|three| Swap::of(analysis, three));
         rest = if swap.is_some() { &rest[SWAP..] } else { others };
-        sentences.extend(meeting(analysis, *line, encounters, swap));
+        let own = swap.is_none().then_some(*line);
+        sentences.extend(meeting(analysis, *line, encounters, swap).map(|sentence| (own, sentence)));
     }
     sentences
 }

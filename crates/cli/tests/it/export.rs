@@ -185,3 +185,30 @@ fn unverified_releases_are_not_exported() {
     assert!(text(&output.stderr).contains("in the release itself"), "{}", text(&output.stderr));
     assert!(!tampered.join("rows").exists() && !tampered.join("rows.partial").exists());
 }
+
+/// Questions are drawn again to check answers, and the right answers are right.
+#[test]
+fn questions_are_written_and_answers_are_checked() {
+    let folder = TINY.path();
+    let order = ["export", "tiny", "--format", "questions", "--count", "2", "--seed", "exam"];
+    let exported = export("questions", &order[2..]);
+    let names: Vec<&str> = exported.keys().map(String::as_str).collect();
+    assert_eq!(names, ["README.md", "check.py", "data/test.jsonl", "infinite_arcade_questions.yaml"]);
+    let questions = rows(&exported);
+    assert_eq!(questions.len(), 12);
+    let given = questions.iter().map(|question| {
+        let answer = format!("I see.\nANSWER: {}", question["answer"].as_str().unwrap());
+        let answer = if question["id"] == "winnable-00001" { "Perhaps.".to_owned() } else { answer };
+        serde_json::json!({ "id": question["id"], "answer": answer }).to_string() + "\n"
+    });
+    fs::write(folder.join("answers.jsonl"), given.skip(1).collect::<String>()).unwrap();
+    let check = [&order[..], &["--check", "answers.jsonl", "--json"]].concat();
+    let report: Value = serde_json::from_slice(&run(folder, &check, 0).stdout).unwrap();
+    let of = |kind: &str, count: &str| report["kinds"][kind][count].as_u64().unwrap();
+    assert_eq!((of("next-board", "right"), of("next-board", "unanswered")), (1, 1));
+    assert_eq!((of("winnable", "right"), of("winnable", "unreadable")), (1, 1));
+    assert_eq!((of("changed-rule", "right"), of("changed-rule", "questions")), (2, 2));
+    fs::write(folder.join("unknown.jsonl"), "{\"id\": \"riddle-1\", \"answer\": \"\"}").unwrap();
+    run(folder, &[&order[..], &["--check", "unknown.jsonl"]].concat(), 2);
+    run(folder, &["export", "tiny", "--format", "jsonl", "--count", "2", "--out", "none"], 2);
+}

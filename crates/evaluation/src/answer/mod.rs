@@ -6,11 +6,13 @@
 //! it negates or judges its action, or states a second action. A number is an action only immediately after
 //! the word "action". The test vectors come from `spec/06` §1.5.
 
+mod choice;
 mod decisions;
 mod phrase;
 mod plan;
 mod text;
 
+pub use choice::{read_board, read_choice};
 pub use plan::read_plan;
 pub(crate) use text::boundary;
 pub use text::without_reasoning;

@@ -8,6 +8,7 @@ mod games;
 mod mailbox;
 mod misbehaving_servers;
 mod prompts;
+mod questions;
 mod runs;
 mod scores;
 mod served;

@@ -1,4 +1,4 @@
-//! `arcade export`: writes a snapshot as a dataset, as folders of games, or as one file.
+//! `arcade export`: writes a snapshot as a dataset, as folders of games, as questions, or as one file.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -6,6 +6,7 @@ use crate::input::trusted::{OriginArgs, SIGNATURES, refuse, signatures_of};
 use crate::paths;
 use crate::protected;
 use crate::shell;
+use crate::verbs::releases::questions::QuestionArgs;
 use crate::verbs::releases::verify;
 use base::MessagePath;
 use base::count;
@@ -15,14 +16,17 @@ use snapshots::export::{Export, ExportError, Exported, Format, export};
 use snapshots::released::{Released, ReleasedError};
 use snapshots::twin::Twin;
 use snapshots::{Draft, SnapshotError, integrity_of};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Writes a snapshot for other tools: as a dataset, as folders of games, or as one file.
+/// Writes a snapshot for other tools: as a dataset, as folders of games, as questions, or as one file.
 ///
 /// A dataset has one row per level, with rules, level, legend, kind, difficulty and digests. PATH gets README.md, the dataset
 /// card that hubs read, and one file of rows in data/. Rows contain solutions only on request. The columns are explained in
 /// `arcade docs export`. With --twin, every game has a different surface and the same mechanics (see `arcade docs twins`). The
 /// same snapshot gives the same bytes.
+///
+/// Questions are single-turn questions about the levels, with exact answers (see `arcade docs questions`). With --check, the
+/// same questions are drawn again, and the answers in a file are checked.
 ///
 /// Exit status 0: written. 1: the snapshot does not verify, and nothing is written. 2: not a snapshot.
 ///
@@ -36,14 +40,16 @@ pub(crate) struct Args {
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: FormatName,
     /// Folder to write (new or empty); for an archive, a file that does not exist
-    #[arg(long, value_name = "PATH")]
-    out: PathBuf,
+    #[arg(long, value_name = "PATH", required_unless_present = "check")]
+    out: Option<PathBuf>,
     /// Write the games' twins instead: masked, mirrored, renamed, or the withheld siblings
     #[arg(long, value_name = "TWIN")]
     twin: Option<Twin>,
     /// Add the actions that win each level
     #[arg(long)]
     solutions: bool,
+    #[command(flatten)]
+    questions: QuestionArgs,
     #[command(flatten)]
     origin: OriginArgs,
 }
@@ -57,31 +63,43 @@ enum FormatName {
     Parquet,
     /// A folder for each game, with game.vgdl and its levels, as accepted by `arcade evaluate` and `arcade run`
     Games,
+    /// Questions with exact answers, as JSON Lines, with a task for lm-evaluation-harness
+    Questions,
     /// The release itself as one .tar.zst, as accepted by `arcade verify`
     Archive,
 }
 
 impl FormatName {
-    /// Returns the dataset format, or `None` for an archive.
+    /// Returns the format of exports of games and levels, or `None` for other formats.
     fn of_export(self) -> Option<Format> {
         match self {
             FormatName::Jsonl => Some(Format::JsonLines),
             #[cfg(feature = "parquet")]
             FormatName::Parquet => Some(Format::Parquet),
             FormatName::Games => Some(Format::Games),
-            FormatName::Archive => None,
+            FormatName::Questions | FormatName::Archive => None,
         }
     }
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
-    protected::check(&args.out)?;
-    let Some(format) = args.format.of_export() else { return archive(args, console) };
+    if !matches!(args.format, FormatName::Questions) {
+        args.questions.refuse()?;
+    }
+    let Some(out) = &args.out else { return questions(args, console) };
+    protected::check(out)?;
+    let Some(format) = args.format.of_export() else {
+        return if matches!(args.format, FormatName::Questions) {
+            questions(args, console)
+        } else {
+            archive(args, out, console)
+        };
+    };
     if args.solutions && matches!(args.format, FormatName::Games) {
         bail!("folders of games contain no solutions: omit --solutions, or choose --format jsonl");
     }
     // A non-empty output folder is reported before the work starts.
-    let draft = Draft::create(&args.out)?;
+    let draft = Draft::create(out)?;
     let released = match Released::read(&args.snapshot) {
         Ok(released) => released,
         Err(error) => return unsound(error, console),
@@ -104,7 +122,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let left_out: Vec<_> =
         left_out.iter().map(|(id, why)| json!({ "game": id, "why": why.to_string() })).collect();
     console.document(&json!({
-        "out": paths::in_json(&args.out),
+        "out": paths::in_json(out),
         "release": manifest.name,
         "root": manifest.root,
         "origin": origin,
@@ -118,7 +136,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     console.say(format_args!(
         "{}{twin}: {levels} levels of {games} games in {}",
         manifest.name,
-        args.out.in_message()
+        out.in_message()
     ));
     for (id, why) in &exported.left_out {
         console.say(format_args!("left out: {id}: {why}"));
@@ -126,8 +144,28 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
+/// Exports questions, or checks answers to them.
+fn questions(args: &Args, console: &Console) -> Answer {
+    if args.twin.is_some() || args.solutions {
+        bail!(
+            "questions are about the release itself, and contain their answers: omit --twin and --solutions"
+        );
+    }
+    let draft = args.out.as_deref().map(Draft::create).transpose()?;
+    let released = match Released::read(&args.snapshot) {
+        Ok(released) => released,
+        Err(error) => return unsound(error, console),
+    };
+    let found = args.origin.check(&args.snapshot, &released.manifest.name, released.manifest.root)?;
+    if let Err(problems) = found {
+        return refuse(&problems, console);
+    }
+    verify::remark_unreplayed(&released.manifest, console);
+    args.questions.answer(&args.snapshot, &released, draft, args.out.as_deref(), console)
+}
+
 /// Exports the release itself as one archive file.
-fn archive(args: &Args, console: &Console) -> Answer {
+fn archive(args: &Args, out: &Path, console: &Console) -> Answer {
     if args.twin.is_some() || args.solutions {
         bail!(
             "an archive is the whole release, with its solutions: omit --twin and --solutions, or choose another --format"
@@ -139,7 +177,7 @@ fn archive(args: &Args, console: &Console) -> Answer {
             return refuse(&problems, console);
         }
     }
-    let Packed { root, digest, unpacked, size, papers } = match pack(&args.snapshot, &args.out) {
+    let Packed { root, digest, unpacked, size, papers } = match pack(&args.snapshot, out) {
         Ok(packed) => packed,
         Err(error @ SnapshotError::Unsound { .. }) => {
             console.document(&json!({ "problems": [error.to_string()] }))?;
@@ -149,16 +187,15 @@ fn archive(args: &Args, console: &Console) -> Answer {
         Err(error) => return Err(error.into()),
     };
     console.document(&json!({
-        "out": paths::in_json(&args.out), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
+        "out": paths::in_json(out), "root": root, "digest": digest, "bytes": size, "unpacked": unpacked,
         "papers_left_out": papers,
     }))?;
-    console
-        .say(format_args!("{}: {size} bytes, {unpacked} unpacked, digest {digest}", args.out.in_message()));
+    console.say(format_args!("{}: {size} bytes, {unpacked} unpacked, digest {digest}", out.in_message()));
     console.say(format_args!("root {root}"));
     if papers > 0 {
         let papers = count(papers, "file");
         console.say(format_args!("papers/ ({papers}) is not in the archive: publish that folder next to it"));
-        let (signed, beside) = (args.snapshot.join(SIGNATURES), signatures_of(&args.out));
+        let (signed, beside) = (args.snapshot.join(SIGNATURES), signatures_of(out));
         if signed.is_dir() && !beside.exists() {
             console.say(format_args!(
                 "`arcade verify --key` looks for the archive's signatures next to it:  cp -r {} {}",

@@ -4,6 +4,7 @@ pub(crate) mod diff;
 pub(crate) mod export;
 pub(crate) mod gallery;
 pub(crate) mod merge;
+pub(crate) mod questions;
 pub(crate) mod recipes;
 pub(crate) mod regenerate;
 pub(crate) mod release;
