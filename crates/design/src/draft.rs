@@ -1,0 +1,308 @@
+//! One draft of a game, from the idea to the levels.
+
+use crate::answer;
+use crate::brief::Brief;
+use crate::dialogue::Dialogue;
+use crate::known::{Known, Nearest};
+use crate::manual;
+use crate::settings::DesignSettings;
+use crate::stages::levels::{self, Verdicts};
+use crate::stages::rules::{self, Rules};
+use crate::stages::{Problem, Stage, idea};
+use base::Digest;
+use evaluation::client::{ChatMessage, Price, Role, Usage};
+use evaluation::log::Event;
+use evaluation::{Halt, tokens};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use validators::{CheckedCriteria, Criterion, Tier};
+
+/// The maximum number of corrections in each stage.
+pub const MAX_REPAIRS: u32 = 3;
+
+base::named_enum! {
+    /// The result of a draft.
+    pub enum Status {
+        /// The game meets all criteria and is new.
+        Accepted = "accepted",
+        /// An answer still had a problem after all corrections of its stage, or the server rejected a question.
+        GivenUp = "given_up",
+    }
+}
+
+/// A finished draft.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Draft {
+    /// The index of the draft, starting at 0.
+    pub number: u64,
+    /// The result.
+    pub status: Status,
+    /// The stage in which the draft ended.
+    pub stage: Stage,
+    /// The last problem in one line, or `None` for an accepted game.
+    pub problem: Option<String>,
+    /// The game's name, or `None` if no idea was accepted.
+    pub name: Option<String>,
+    /// The idea, or `None` if no idea was accepted.
+    pub idea: Option<String>,
+    /// The number of corrections, by stage. Stages that were not reached are absent.
+    pub repairs: BTreeMap<Stage, u32>,
+    /// The findings about the last version of the game.
+    pub measures: DraftMeasures,
+    /// The answers, tokens and money that the draft used.
+    pub spending: Spending,
+    /// The digest of all answers, in order.
+    pub answers: Digest,
+    /// The last rules that compile.
+    pub rules: Option<String>,
+    /// The last levels that load with these rules.
+    pub levels: Vec<String>,
+}
+
+/// The findings about the last version of a draft's game.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DraftMeasures {
+    /// `true` if the rules compile.
+    pub compiles: bool,
+    /// The nearest known game, if the rules compile and any game is known.
+    pub nearest: Option<Nearest>,
+    /// `true` if the requested number of levels load.
+    pub loads: bool,
+    /// The number of levels for which a win was found.
+    pub won: usize,
+    /// `true` for each criterion that the game, or all of its levels, meet. Empty if the levels do not load.
+    pub criteria: BTreeMap<Criterion, bool>,
+    /// The tier of the last level, if a tier is required and a win was found.
+    pub tier: Option<Tier>,
+}
+
+/// The costs of a draft.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spending {
+    /// The number of answers.
+    pub answers: u64,
+    /// The number of tokens in all questions, as reported by the provider, or else counted locally.
+    pub input_tokens: u64,
+    /// The number of tokens in all answers.
+    pub output_tokens: u64,
+    /// The price of all answers in US dollars, cached ones included, or `None` if the price is unknown.
+    pub cost: Option<f64>,
+}
+
+impl Draft {
+    /// Returns `true` if the game was accepted.
+    pub fn is_accepted(&self) -> bool {
+        self.status == Status::Accepted
+    }
+}
+
+/// Everything on which a draft depends, apart from the designer's answers.
+pub(crate) struct Context<'a> {
+    pub(crate) settings: &'a DesignSettings,
+    pub(crate) criteria: &'a CheckedCriteria,
+    /// The games from which the draft must differ, earlier drafts included.
+    pub(crate) known: &'a Known,
+    /// The earlier drafts.
+    pub(crate) earlier: &'a [Draft],
+}
+
+/// Writes one draft.
+///
+/// # Errors
+/// Returns the reason for a missing answer that is not the designer's fault.
+pub(crate) fn write(context: &Context<'_>, number: u64, dialogue: &mut Dialogue<'_>) -> Result<Draft, Halt> {
+    let mut work = Work {
+        context,
+        dialogue,
+        repairs: BTreeMap::new(),
+        name: None,
+        idea: None,
+        game: GameSoFar::default(),
+    };
+    let end = match work.stages() {
+        // The server rejects only these questions, so the next draft may succeed.
+        Err(Halt::Unfit(message)) => Some(message),
+        end => end?,
+    };
+    let stage = work.repairs.last_key_value().map_or(Stage::Idea, |(stage, _)| *stage);
+    let Work { repairs, name, idea, game: GameSoFar { rules, levels, measures }, .. } = work;
+    let events = dialogue.journal.events();
+    Ok(Draft {
+        number,
+        status: if end.is_none() { Status::Accepted } else { Status::GivenUp },
+        stage,
+        problem: end,
+        name,
+        idea,
+        repairs,
+        measures,
+        spending: Spending::of(events, context.settings.price.as_ref()),
+        answers: digest(events),
+        rules: rules.map(|rules| rules.source),
+        levels,
+    })
+}
+
+/// A draft under construction.
+struct Work<'a, 'd> {
+    context: &'a Context<'a>,
+    dialogue: &'a mut Dialogue<'d>,
+    repairs: BTreeMap<Stage, u32>,
+    name: Option<String>,
+    idea: Option<String>,
+    game: GameSoFar,
+}
+
+/// The last version of the game.
+#[derive(Default)]
+struct GameSoFar {
+    rules: Option<Rules>,
+    levels: Vec<String>,
+    measures: DraftMeasures,
+}
+
+impl Work<'_, '_> {
+    /// Runs all stages. Returns the last problem if the draft was given up.
+    fn stages(&mut self) -> Result<Option<String>, Halt> {
+        let Context { settings, criteria, known, earlier } = *self.context;
+        let brief = &settings.brief;
+        let opening = manual::idea(brief, criteria, earlier);
+        let is_idea = |text: &str| answer::idea(text).is_ok();
+        let idea = match self.stage(Stage::Idea, opening, is_idea, |_, text| idea::check(text, earlier))? {
+            Ok(idea) => idea,
+            Err(problem) => return Ok(Some(problem.summary)),
+        };
+        (self.name, self.idea) = (Some(idea.name.clone()), Some(idea.text.clone()));
+        let is_rules = |text: &str| answer::rules(text).is_some();
+        let check = |game: &mut GameSoFar, text: &str| game.accept_rules(text, brief, known);
+        if let Err(problem) = self.stage(Stage::Rules, manual::rules(brief, &idea), is_rules, check)? {
+            return Ok(Some(problem.summary));
+        }
+        let rules = self.game.rules.as_ref().map(|rules| rules.source.clone()).unwrap_or_default();
+        let opening = manual::levels(brief, criteria, &idea, &rules);
+        let is_levels = |text: &str| answer::levels(text).is_some();
+        let check = |game: &mut GameSoFar, text: &str| game.accept_levels(text, self.context);
+        let end = stage(
+            self.dialogue,
+            &mut self.repairs,
+            &mut self.game,
+            Stage::Levels,
+            opening,
+            is_levels,
+            check,
+        )?;
+        Ok(end.err().map(|problem| problem.summary))
+    }
+
+    fn stage<T>(
+        &mut self,
+        name: Stage,
+        opening: String,
+        is_usable: impl Fn(&str) -> bool,
+        check: impl Fn(&mut GameSoFar, &str) -> Result<T, Problem>,
+    ) -> Result<Result<T, Problem>, Halt> {
+        stage(self.dialogue, &mut self.repairs, &mut self.game, name, opening, is_usable, check)
+    }
+}
+
+/// Asks for an answer until `check` accepts it, or until no corrections are left.
+fn stage<T>(
+    dialogue: &mut Dialogue<'_>,
+    repairs: &mut BTreeMap<Stage, u32>,
+    game: &mut GameSoFar,
+    stage: Stage,
+    opening: String,
+    is_usable: impl Fn(&str) -> bool,
+    check: impl Fn(&mut GameSoFar, &str) -> Result<T, Problem>,
+) -> Result<Result<T, Problem>, Halt> {
+    let mut messages = vec![message(Role::System, manual::SYSTEM.to_owned()), message(Role::User, opening)];
+    let mut attempt = 0;
+    loop {
+        repairs.insert(stage, attempt);
+        let reply = dialogue.ask(stage, attempt, &messages, &is_usable)?;
+        let problem = match check(game, &reply.text) {
+            Ok(accepted) => return Ok(Ok(accepted)),
+            Err(problem) => problem,
+        };
+        if attempt == MAX_REPAIRS {
+            return Ok(Err(problem));
+        }
+        messages.push(message(Role::Assistant, reply.text));
+        messages.push(message(Role::User, problem.message(MAX_REPAIRS - attempt)));
+        attempt += 1;
+    }
+}
+
+impl GameSoFar {
+    fn accept_rules(&mut self, text: &str, brief: &Brief, known: &Known) -> Result<(), Problem> {
+        let missing = "The answer contains no block with rules, ```` ```vgdl ````.";
+        let source = answer::rules(text).ok_or_else(|| Problem::plain(missing))?;
+        let compiled = rules::compile(&source, known)?;
+        self.measures =
+            DraftMeasures { compiles: true, nearest: compiled.nearest.clone(), ..DraftMeasures::default() };
+        self.levels.clear();
+        let checked = rules::check(&compiled, brief);
+        self.rules = Some(compiled);
+        checked
+    }
+
+    fn accept_levels(&mut self, text: &str, context: &Context<'_>) -> Result<(), Problem> {
+        let Context { settings, criteria, known, .. } = *context;
+        let missing = "The answer contains no block with a level, ```` ```level ````.";
+        let answered = answer::levels(text).ok_or_else(|| Problem::plain(missing))?;
+        if answered.rules.is_some() {
+            self.accept_rules(text, &settings.brief, known)?;
+        }
+        let rules = self.rules.as_ref().expect("the second stage accepted rules");
+        let loaded = levels::load(answered.levels, rules, &settings.brief)?;
+        let Verdicts { won, criteria, tier, problem } =
+            levels::judge(rules, &loaded, &settings.brief, criteria);
+        self.levels = loaded.texts;
+        self.measures = DraftMeasures { loads: true, won, criteria, tier, ..self.measures.clone() };
+        problem.map_or(Ok(()), Err)
+    }
+}
+
+fn message(role: Role, text: String) -> ChatMessage {
+    ChatMessage { role, text, image: None }
+}
+
+/// Returns the digest of the answers in a log, in order. It depends on no time and no interruption.
+fn digest(events: &[Event]) -> Digest {
+    let answers = events.iter().filter_map(|event| match event {
+        Event::Reply(reply) => Some((reply.step, reply.attempt, &reply.text)),
+        _ => None,
+    });
+    let answers = serde_json::to_vec(&answers.collect::<Vec<_>>()).expect("answers are plain data");
+    Digest::of(&answers)
+}
+
+impl Spending {
+    fn of(events: &[Event], price: Option<&Price>) -> Spending {
+        let mut spending = Spending { cost: price.map(|_| 0.0), ..Spending::default() };
+        let mut question = 0;
+        for event in events {
+            match event {
+                Event::Request { tokens, .. } => question = *tokens,
+                Event::Reply(reply) => {
+                    let counted =
+                        || tokens::count(&reply.text) + reply.reasoning.as_deref().map_or(0, tokens::count);
+                    let input = reply.usage.input_tokens.unwrap_or(question);
+                    let output = reply.usage.output_tokens.unwrap_or_else(counted);
+                    let usage =
+                        Usage { input_tokens: Some(input), output_tokens: Some(output), ..reply.usage };
+                    spending.answers += 1;
+                    spending.input_tokens = spending.input_tokens.saturating_add(input);
+                    spending.output_tokens = spending.output_tokens.saturating_add(output);
+                    let cost = price.and_then(|price| price.cost(&usage)).map(|cost| cost.dollars());
+                    spending.cost = spending.cost.zip(cost).map(|(sum, cost)| sum + cost);
+                }
+                _ => {}
+            }
+        }
+        spending
+    }
+}

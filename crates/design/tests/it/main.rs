@@ -1,0 +1,5 @@
+//! Tests of whole runs with a scripted designer.
+
+mod games;
+mod runs;
+mod scripted;
