@@ -32,8 +32,8 @@ const DETAILED: [&str; 14] = [
     "SpriteCounter",
 ];
 
-/// The classes of continuous physics, which the manual omits, because the idea is a game on a grid.
-const CONTINUOUS: [&str; 8] = [
+/// The words that the manual omits: they belong to continuous physics, or other words do the same better.
+const OMITTED: [&str; 18] = [
     "Walker",
     "WalkerJumper",
     "SpaceshipAvatar",
@@ -42,6 +42,16 @@ const CONTINUOUS: [&str; 8] = [
     "BirdAvatar",
     "PlatformerAvatar",
     "WizardAvatar",
+    "ErraticMissile",
+    "RandomInertial",
+    "AlternateChaser",
+    "SpriteProducer",
+    "wallBounce",
+    "wallReverse",
+    "wallStop",
+    "waterPhysics",
+    "killIfNotUpright",
+    "StopCounter",
 ];
 
 /// Returns the message that opens the first stage. `earlier` are the drafts from which the game must differ.
@@ -164,18 +174,65 @@ fn words<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     let line = |word: &str| {
         let summary = editor::summary(word)?;
         let end = summary.find(". ").map_or(summary.len(), |end| end + 1);
-        Some(format!("- `{word}`: {}", &summary[..end]))
+        let start = format!("`{word}` is ");
+        let sentence = &summary[..end];
+        Some(format!("- `{word}`: {}", sentence.strip_prefix(&start).unwrap_or(sentence)))
     };
-    words.into_iter().filter_map(line).collect::<Vec<_>>().join("\n")
+    let shown = words.into_iter().filter(|word| !OMITTED.contains(word));
+    shown.filter_map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Lists the sprite classes that move on the grid.
+/// Lists the sprite classes.
 fn classes() -> String {
-    words(SpriteClass::ALL.iter().map(|class| class.name()).filter(|name| !CONTINUOUS.contains(name)))
+    words(SpriteClass::ALL.iter().map(|class| class.name()))
 }
 
 /// Lists the questions of the criteria that are asked.
 fn questions(criteria: &Criteria, is_meant: impl Fn(Criterion) -> bool) -> String {
     let asked = criteria.ask.iter().filter(|&criterion| is_meant(criterion));
     asked.map(|criterion| format!("- {criterion}: {}", criterion.question())).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::Seed;
+    use engine::Game;
+    use validators::{CriterionSet, Effort, Judging, Panel};
+
+    /// The manual's example must be complete, free of warnings and winnable.
+    #[test]
+    fn the_example_works() {
+        let game = Game::from_source(EXAMPLE_GAME).unwrap();
+        assert!(game.warnings().is_empty(), "{:?}", game.warnings());
+        let level = game.level(EXAMPLE_LEVEL).unwrap();
+        let ask = CriterionSet::LEVEL.without(CriterionSet::of(&[Criterion::Skill]));
+        let criteria = Criteria { ask, budget: 100_000, ..Criteria::default() }.check().unwrap();
+        let panel = Panel::new(criteria, Effort::Full);
+        let report = panel.judge(Judging::level(&game, &level, Seed::from_text("validate")));
+        assert!(report.passes(), "{:#?}", report.first_obstacle());
+    }
+
+    #[test]
+    fn manuals_are_complete_and_short() {
+        let brief = Brief {
+            levels: 3,
+            theme: Some("snow".to_owned()),
+            tier: None,
+            required: vec!["Spreader".to_owned()],
+            unlike: Vec::new(),
+        };
+        let criteria = crate::DesignSettings::criteria(1000);
+        let first = idea(&brief, &criteria, &[]);
+        let drawn = Idea { name: "snow-fall".to_owned(), text: "A {brace} of ideas.".to_owned() };
+        let second = rules(&brief, &drawn);
+        let third = levels(&brief, &criteria, &drawn, EXAMPLE_GAME);
+        for (text, most) in [(&first, 4000), (&second, 9000), (&third, 2500)] {
+            let tokens = evaluation::tokens::count(text);
+            assert!(tokens < most, "{tokens} tokens\n{text}");
+        }
+        assert!(first.contains("The theme of the game is: snow"));
+        assert!(second.contains("**Spreader**") && second.contains("A {brace} of ideas."));
+        assert!(third.contains("Draw 3 levels") && third.contains("at least 25 ticks"), "{third}");
+    }
 }
