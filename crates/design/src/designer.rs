@@ -1,5 +1,6 @@
 //! The sources of answers.
 
+use crate::references::Reference;
 use base::Seed;
 use evaluation::client::{ChatMessage, ChatReply, ChatRequest, Decoding, Model};
 use evaluation::player::mailbox::{Address, EpisodeResult, Mailbox};
@@ -18,6 +19,8 @@ pub enum Designer {
     },
     /// A mailbox. Each draft is a conversation in its own folder.
     Mailbox(Arc<Mailbox>),
+    /// A reference designer, which is a program and answers no questions.
+    Reference(Reference),
 }
 
 impl Designer {
@@ -38,6 +41,7 @@ impl Designer {
                 Ok(model.chat(&ChatRequest { messages, decoding, sample })?)
             }
             Designer::Mailbox(mailbox) => Ok(mailbox.ask(conversation, address, messages)?),
+            Designer::Reference(_) => Err(Halt::Log("a reference designer answers no questions".to_owned())),
         }
     }
 
@@ -52,7 +56,7 @@ impl Designer {
         text: &str,
     ) -> Result<(), EvaluationError> {
         match self {
-            Designer::Model { .. } => Ok(()),
+            Designer::Model { .. } | Designer::Reference(_) => Ok(()),
             Designer::Mailbox(mailbox) => mailbox.end(conversation, result, text),
         }
     }

@@ -5,6 +5,7 @@ use crate::brief::Brief;
 use crate::dialogue::Dialogue;
 use crate::known::{Known, Nearest};
 use crate::manual;
+use crate::references::{Proposal, Reference};
 use crate::settings::DesignSettings;
 use crate::stages::levels::{self, Verdicts};
 use crate::stages::rules::{self, Rules};
@@ -146,6 +147,31 @@ pub(crate) fn write(context: &Context<'_>, number: u64, dialogue: &mut Dialogue<
     })
 }
 
+/// Judges one draft of a reference designer. Such a draft has no corrections.
+pub(crate) fn propose(context: &Context<'_>, number: u64, reference: Reference) -> Draft {
+    let settings = context.settings;
+    let mut game = GameSoFar::default();
+    let judged = match reference.propose(settings.brief.levels, settings.draft_seed(number)) {
+        Some(proposal) => game.accept_proposal(proposal, context),
+        None => Err(Problem::plain("The designer draws no rules that compile.")),
+    };
+    let problem = judged.err().map(|problem| problem.summary);
+    Draft {
+        number,
+        status: if problem.is_none() { Status::Accepted } else { Status::GivenUp },
+        stage: Stage::Levels,
+        problem,
+        name: Some(format!("{}-{number:04}", reference.name())),
+        idea: None,
+        repairs: BTreeMap::new(),
+        measures: game.measures,
+        spending: Spending::of(&[], None),
+        answers: digest(&[]),
+        rules: game.rules.map(|rules| rules.source),
+        levels: game.levels,
+    }
+}
+
 /// A draft under construction.
 struct Work<'a, 'd> {
     context: &'a Context<'a>,
@@ -240,9 +266,13 @@ impl GameSoFar {
     fn accept_rules(&mut self, text: &str, brief: &Brief, known: &Known) -> Result<(), Problem> {
         let missing = "The answer contains no block with rules, ```` ```vgdl ````.";
         let source = answer::rules(text).ok_or_else(|| Problem::plain(missing))?;
-        let compiled = rules::compile(&source, known)?;
-        self.measures =
-            DraftMeasures { compiles: true, nearest: compiled.nearest.clone(), ..DraftMeasures::default() };
+        self.accept_source(&source, brief, known)
+    }
+
+    fn accept_source(&mut self, source: &str, brief: &Brief, known: &Known) -> Result<(), Problem> {
+        let compiled = rules::compile(source, known)?;
+        let nearest = compiled.nearest.clone();
+        self.measures = DraftMeasures { compiles: true, nearest, ..DraftMeasures::default() };
         self.levels.clear();
         let checked = rules::check(&compiled, brief);
         self.rules = Some(compiled);
@@ -250,19 +280,34 @@ impl GameSoFar {
     }
 
     fn accept_levels(&mut self, text: &str, context: &Context<'_>) -> Result<(), Problem> {
-        let Context { settings, criteria, known, .. } = *context;
         let missing = "The answer contains no block with a level, ```` ```level ````.";
         let answered = answer::levels(text).ok_or_else(|| Problem::plain(missing))?;
         if answered.rules.is_some() {
-            self.accept_rules(text, &settings.brief, known)?;
+            self.accept_rules(text, &context.settings.brief, context.known)?;
         }
-        let rules = self.rules.as_ref().expect("the second stage accepted rules");
-        let loaded = levels::load(answered.levels, rules, &settings.brief)?;
+        self.accept_boards(answered.levels, context)
+    }
+
+    fn accept_boards(&mut self, texts: Vec<String>, context: &Context<'_>) -> Result<(), Problem> {
+        let brief = &context.settings.brief;
+        let rules = self.rules.as_ref().expect("the rules were accepted before");
+        let loaded = levels::load(texts, rules, brief)?;
         let Verdicts { won, criteria, tier, problem } =
-            levels::judge(rules, &loaded, &settings.brief, criteria);
+            levels::judge(rules, &loaded, brief, context.criteria);
         self.levels = loaded.texts;
         self.measures = DraftMeasures { loads: true, won, criteria, tier, ..self.measures.clone() };
         problem.map_or(Ok(()), Err)
+    }
+
+    /// Judges a reference designer's proposal. Levels are judged even if the rules are not new, because the score of a
+    /// reference counts each step by itself.
+    fn accept_proposal(&mut self, proposal: Proposal, context: &Context<'_>) -> Result<(), Problem> {
+        let checked = self.accept_source(&proposal.rules, &context.settings.brief, context.known);
+        if self.rules.is_none() {
+            return checked;
+        }
+        let judged = self.accept_boards(proposal.levels, context);
+        checked.and(judged)
     }
 }
 

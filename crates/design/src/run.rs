@@ -74,6 +74,12 @@ pub fn replay(folder: &DesignFolder, known: &Known) -> Result<(Results, Vec<u64>
     let mut differing = Vec::new();
     for number in 0..folder.settings.drafts {
         let Some(stored) = folder.draft(number)? else { continue };
+        if let Some(reference) = folder.settings.reference() {
+            let draft = draft::propose(&sequence.context(), number, reference);
+            differing.extend((draft != stored).then_some(number));
+            sequence.push(draft);
+            continue;
+        }
         let mut journal = Journal::in_memory();
         for event in folder.events(number)?.unwrap_or_default() {
             journal.push(event)?;
@@ -122,6 +128,11 @@ impl<'a> Sequence<'a> {
 
     /// Writes a draft with its log, and stores it.
     fn write(&self, number: u64, designer: &Designer) -> Result<Result<Draft, Halt>, DesignError> {
+        if let Designer::Reference(reference) = designer {
+            let draft = draft::propose(&self.context(), number, *reference);
+            self.folder.store(&draft)?;
+            return Ok(Ok(draft));
+        }
         let journal = Journal::open(&self.folder.log(number))?;
         let (draft, mut journal) = self.draft(number, journal, Some(designer));
         match draft {
@@ -139,17 +150,20 @@ impl<'a> Sequence<'a> {
         }
     }
 
+    fn context(&self) -> Context<'_> {
+        let settings = &self.folder.settings;
+        Context { settings, criteria: &self.criteria, known: &self.known, earlier: &self.drafts }
+    }
+
     fn draft(
         &self,
         number: u64,
         journal: Journal,
         designer: Option<&Designer>,
     ) -> (Result<Draft, Halt>, Journal) {
-        let settings = &self.folder.settings;
-        let context =
-            Context { settings, criteria: &self.criteria, known: &self.known, earlier: &self.drafts };
+        let context = self.context();
         let conversation = conversation(number);
-        let samples = settings.draft_seed(number);
+        let samples = context.settings.draft_seed(number);
         let mut dialogue = Dialogue { journal, designer, conversation: &conversation, samples };
         let draft = draft::write(&context, number, &mut dialogue);
         (draft, dialogue.journal)

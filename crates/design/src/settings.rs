@@ -1,6 +1,7 @@
 //! The settings of a run, which determine everything except the designer's answers.
 
 use crate::brief::Brief;
+use crate::references::Reference;
 use base::canonical::canonical_digest;
 use base::{Digest, Seed};
 use evaluation::client::Price;
@@ -53,6 +54,11 @@ impl DesignSettings {
     /// Panics if the criteria contain a number that JSON lacks. Checked criteria do not.
     pub fn digest(&self) -> Digest {
         canonical_digest(self).expect("checked settings are plain data")
+    }
+
+    /// Returns the reference designer that wrote the drafts, or `None` if the designer answers questions.
+    pub fn reference(&self) -> Option<Reference> {
+        serde_json::from_value(self.details.get("reference")?.clone()).ok()
     }
 
     /// Returns the seed of a draft.

@@ -69,6 +69,25 @@ fn files_answer_the_questions_of_a_mailbox() {
     assert!(home.path().join("desk/finished.json").exists());
 }
 
+#[test]
+fn designers_are_compared() {
+    let home = tempfile::tempdir().unwrap();
+    for designer in ["grammar", "kernels"] {
+        let args = ["design", "--designer", designer, "--drafts", "2", "--budget", "5000", "--out", designer];
+        let written = run(home.path(), &args, 0);
+        assert!(text(&written.stdout).contains("of 2 drafts accepted"), "{}", text(&written.stdout));
+    }
+    let told = run(home.path(), &["design", "--report", "grammar", "kernels"], 0);
+    let told = text(&told.stdout);
+    assert!(told.contains("| measure | grammar | kernels |"), "{told}");
+    assert!(told.contains("| compiles, % |") && told.contains("| necessity, % |"), "{told}");
+    let scores = json(&run(home.path(), &["--json", "design", "--report", "kernels"], 0));
+    assert_eq!(
+        (&scores["scores"][0]["designer"], &scores["scores"][0]["drafts"]),
+        (&"kernels".into(), &2.into())
+    );
+}
+
 fn wait(path: &Path) {
     while !path.exists() {
         std::thread::sleep(Duration::from_millis(10));

@@ -2,4 +2,5 @@
 
 mod games;
 mod runs;
+mod scores;
 mod scripted;

@@ -5,9 +5,10 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::shell;
 use base::MessagePath;
-use design::{DesignFolder, Designer, Results};
+use design::{DesignFolder, Designer, Reference, Results};
 use evaluation::client::{self, Caps, ModelOptions, ModelSettings, Price};
 use evaluation::player::mailbox::{Finished, Mailbox};
+use generators::GENERATION;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,6 +17,7 @@ use std::sync::Arc;
 pub(super) enum RequestedDesigner {
     Model(Box<ModelOptions>, ModelSettings),
     Mailbox(PathBuf),
+    Reference(Reference),
 }
 
 /// A connected designer, with the state that outlives a draft.
@@ -39,14 +41,24 @@ impl RequestedDesigner {
                 "no designer specified: pass a language model with --model (`openai:ID`), or --designer mailbox:DIR"
             );
         };
+        if let Some(flag) = args.client.unused_without_model() {
+            bail!("{flag} applies only to language models (--model); remove it for the designer `{name}`");
+        }
+        if args.client.timeout.is_some() {
+            bail!("--timeout applies only to language models (--model); remove it for the designer `{name}`");
+        }
+        if let Some(reference) = Reference::ALL.into_iter().find(|reference| reference.name() == name) {
+            return Ok(RequestedDesigner::Reference(reference));
+        }
         let Some(folder) = name.strip_prefix("mailbox:") else {
-            bail!("`{name}` isn't a designer; pass --designer mailbox:DIR, or a language model with --model");
+            let references = Reference::ALL.map(Reference::name).join(", ");
+            bail!(
+                "`{name}` isn't a designer; pass --designer mailbox:DIR, a reference designer ({references}), or a \
+                 language model with --model"
+            );
         };
         if folder.is_empty() {
             bail!("`mailbox:` has no folder; specify a new or empty one, such as `mailbox:alice`");
-        }
-        if let Some(flag) = args.client.unused_without_model() {
-            bail!("{flag} applies only to language models (--model); remove it for the designer `{name}`");
         }
         Ok(RequestedDesigner::Mailbox(folder.into()))
     }
@@ -59,6 +71,7 @@ impl RequestedDesigner {
                 let folder = folder.file_name().unwrap_or(folder.as_os_str()).to_string_lossy();
                 format!("mailbox:{folder}")
             }
+            RequestedDesigner::Reference(reference) => reference.name().to_owned(),
         })
     }
 
@@ -66,13 +79,16 @@ impl RequestedDesigner {
         match self {
             RequestedDesigner::Model(_, settings) => json!({ "model": settings }),
             RequestedDesigner::Mailbox(_) => json!({ "mailbox": true }),
+            RequestedDesigner::Reference(reference) => {
+                json!({ "reference": reference, "generation": GENERATION })
+            }
         }
     }
 
     pub(super) fn price(&self) -> Result<Option<Price>, Failure> {
         match self {
             RequestedDesigner::Model(options, _) => Ok(client::price(options)?),
-            RequestedDesigner::Mailbox(_) => Ok(None),
+            RequestedDesigner::Mailbox(_) | RequestedDesigner::Reference(_) => Ok(None),
         }
     }
 
@@ -84,6 +100,9 @@ impl RequestedDesigner {
         console: &Console,
     ) -> Result<Connected, Failure> {
         match self {
+            RequestedDesigner::Reference(reference) => {
+                Ok(Connected { designer: Designer::Reference(*reference), caps: None, mailbox: None })
+            }
             RequestedDesigner::Model(options, _) => {
                 let connection = client::connect(options)?;
                 connection.caps.charge_logged(&folder.all_events()?);

@@ -30,7 +30,8 @@ use validators::{Criteria, Tier};
 /// Example: arcade design --model openai:gpt-4o-mini --drafts 5 --max-cost 1 --out designs
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// `mailbox:DIR`, for any program or person that answers the files in a folder (see `arcade docs mailbox`)
+    /// `mailbox:DIR`, for any program or person that answers the files in a folder (see `arcade docs mailbox`); or a
+    /// reference designer: `grammar`, `kernels`, `inventor`
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
     designer: Option<String>,
     /// The designer's name in results [default: the model's name, or the mailbox]
@@ -61,7 +62,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TEXT", default_value = "design")]
     seed: String,
     /// Output folder for the games, logs and results (new or empty)
-    #[arg(long, value_name = "DIR", required_unless_present = "replay")]
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["replay", "report"])]
     out: Option<PathBuf>,
     /// Continue an interrupted run of the same command
     #[arg(long, requires = "out")]
@@ -69,6 +70,9 @@ pub(crate) struct Args {
     /// Compute all finished drafts in this folder again from their logs, without the model, and compare them
     #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "model", "designer"])]
     replay: Option<PathBuf>,
+    /// Print the designers' scores: the drafts in each of these folders, with intervals and costs per accepted game
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["out", "model", "designer", "replay"])]
+    report: Vec<PathBuf>,
     #[command(flatten)]
     client: ClientArgs,
 }
@@ -87,6 +91,9 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let known = known(&folder.settings.brief.unlike)?;
         let (drafts, differing) = design::replay(&folder, &known)?;
         return results::replayed(&drafts, &differing, console);
+    }
+    if !args.report.is_empty() {
+        return results::report(&args.report, console);
     }
     let Some(out) = &args.out else { unreachable!("the parser requires --out") };
     let requested = RequestedDesigner::new(args)?;

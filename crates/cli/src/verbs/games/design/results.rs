@@ -5,10 +5,10 @@ use crate::console::Console;
 use crate::failure::{Answer, Failure};
 use crate::paths;
 use base::MessagePath;
-use design::{DesignFolder, Draft, GAMES_FOLDER, Results};
+use design::{DesignError, DesignFolder, DesignerScore, Draft, GAMES_FOLDER, Results};
 use evaluation::Halt;
 use serde_json::json;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Describes a finished draft on one line.
 pub(super) fn line(draft: &Draft) -> String {
@@ -82,4 +82,14 @@ pub(super) fn replayed(results: &Results, differing: &[u64], console: &Console) 
     let same = count - differing.len();
     console.say(format_args!("{same} of {} follow exactly from their logs", base::count(count, "draft")));
     Ok(differing.is_empty())
+}
+
+/// Prints the scores of the drafts in several folders.
+pub(super) fn report(folders: &[PathBuf], console: &Console) -> Answer {
+    let read = |path: &PathBuf| DesignerScore::read(&DesignFolder::open(path)?);
+    let scores = folders.iter().map(read).collect::<Result<Vec<_>, DesignError>>()?;
+    console.document(&json!({ "scores": scores }))?;
+    let table = design::table(&scores);
+    console.say(table.to_markdown().trim_end());
+    Ok(true)
 }
