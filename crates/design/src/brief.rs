@@ -2,6 +2,7 @@
 
 use crate::known::KnownGame;
 use engine::{EFFECTS, SpriteClass, TERMINATIONS, nearest};
+use generators::invention::MechanicInWords;
 use serde::{Deserialize, Serialize};
 use validators::Tier;
 
@@ -20,7 +21,8 @@ pub struct Brief {
     pub theme: Option<String>,
     /// The minimum tier of each game's last level.
     pub tier: Option<Tier>,
-    /// The sprite classes, effects and terminations that each game must use.
+    /// The sprite classes, effects, terminations and mechanics that each game must use. A game uses a mechanic if it
+    /// uses all keywords of the mechanic.
     pub required: Vec<String>,
     /// The games from which each game must differ, in addition to the corpus, the kernels and earlier drafts.
     pub unlike: Vec<KnownGame>,
@@ -47,19 +49,24 @@ impl Brief {
     }
 }
 
-/// Rejects a word that is not a sprite class, an effect or a termination.
+/// Rejects a word that is not a sprite class, an effect, a termination or a mechanic.
 fn check_word(word: &str) -> Result<(), String> {
     let classes = SpriteClass::ALL.iter().map(|class| class.name());
-    let words: Vec<&str> =
-        classes.chain(EFFECTS.iter().copied()).chain(TERMINATIONS.iter().copied()).collect();
+    let keywords = classes.chain(EFFECTS.iter().copied()).chain(TERMINATIONS.iter().copied());
+    let words: Vec<&str> = keywords.chain(MechanicInWords::names()).collect();
     if words.contains(&word) {
         return Ok(());
     }
     let help = match nearest(word, words) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`arcade docs ontology` lists them".to_owned(),
+        None => "`arcade docs ontology` and `arcade docs mechanics` list them".to_owned(),
     };
-    Err(format!("`{word}` isn't a sprite class, an effect or a termination; {help}"))
+    Err(format!("`{word}` isn't a sprite class, an effect, a termination or a mechanic; {help}"))
+}
+
+/// Returns the keywords that a required word stands for: those of a mechanic, or else the word itself.
+pub(crate) fn keywords(word: &str) -> Vec<String> {
+    MechanicInWords::of(word).map_or_else(|| vec![word.to_owned()], |mechanic| mechanic.keywords)
 }
 
 /// Returns `true` if the rules use a word outside comments.
@@ -89,6 +96,13 @@ mod tests {
         assert!(Brief { levels: 0, ..brief("Chaser") }.check().unwrap_err().contains("1 to 20 levels"));
         let theme = Some(" ".to_owned());
         assert!(Brief { theme, ..brief("Chaser") }.check().unwrap_err().contains("the theme is empty"));
+    }
+
+    #[test]
+    fn mechanics_stand_for_their_keywords() {
+        assert_eq!(brief("ignite").check(), Ok(()));
+        assert_eq!(keywords("ignite"), ["killSprite", "spawnIfHasMore"]);
+        assert_eq!(keywords("Chaser"), ["Chaser"]);
     }
 
     #[test]

@@ -21,6 +21,7 @@ mod run;
 mod score;
 mod settings;
 mod stages;
+mod work;
 
 pub use brief::{Brief, MAX_LEVELS, MAX_THEME};
 pub use designer::Designer;

@@ -2,10 +2,11 @@
 
 use crate::designer::Designer;
 use crate::dialogue::Dialogue;
-use crate::draft::{self, Context, Draft};
+use crate::draft::Draft;
 use crate::error::DesignError;
 use crate::folder::{DesignFolder, conversation};
 use crate::known::Known;
+use crate::work::{self, Context};
 use engine::{Game, Outcome as GameOutcome};
 use evaluation::player::mailbox::EpisodeResult;
 use evaluation::{Halt, Journal};
@@ -75,7 +76,7 @@ pub fn replay(folder: &DesignFolder, known: &Known) -> Result<(Results, Vec<u64>
     for number in 0..folder.settings.drafts {
         let Some(stored) = folder.draft(number)? else { continue };
         if let Some(reference) = folder.settings.reference() {
-            let draft = draft::propose(&sequence.context(), number, reference);
+            let draft = work::propose(&sequence.context(), number, reference);
             differing.extend((draft != stored).then_some(number));
             sequence.push(draft);
             continue;
@@ -129,7 +130,7 @@ impl<'a> Sequence<'a> {
     /// Writes a draft with its log, and stores it.
     fn write(&self, number: u64, designer: &Designer) -> Result<Result<Draft, Halt>, DesignError> {
         if let Designer::Reference(reference) = designer {
-            let draft = draft::propose(&self.context(), number, *reference);
+            let draft = work::propose(&self.context(), number, *reference);
             self.folder.store(&draft)?;
             return Ok(Ok(draft));
         }
@@ -165,7 +166,7 @@ impl<'a> Sequence<'a> {
         let conversation = conversation(number);
         let samples = context.settings.draft_seed(number);
         let mut dialogue = Dialogue { journal, designer, conversation: &conversation, samples };
-        let draft = draft::write(&context, number, &mut dialogue);
+        let draft = work::write(&context, number, &mut dialogue);
         (draft, dialogue.journal)
     }
 }

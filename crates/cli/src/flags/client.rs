@@ -96,6 +96,11 @@ impl ClientArgs {
         given.into_iter().find(|(_, is_given)| *is_given).map(|(flag, _)| flag)
     }
 
+    /// Returns `true` if the user set the number of concurrent requests.
+    pub(crate) fn has_concurrency(&self) -> bool {
+        self.concurrency.is_some()
+    }
+
     /// Returns the number of concurrent requests.
     pub(crate) fn concurrency(&self) -> NonZeroUsize {
         self.concurrency.unwrap_or(CONCURRENCY)

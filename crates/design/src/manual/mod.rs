@@ -1,9 +1,10 @@
 //! The manual of each stage, as a text that a model reads. The lists of words come from the pages of the ontology.
 
 use crate::answer::Idea;
-use crate::brief::Brief;
+use crate::brief::{Brief, keywords};
 use crate::draft::Draft;
 use engine::{EFFECTS, SpriteClass, TERMINATIONS};
+use generators::invention::MechanicInWords;
 use std::fmt::Write;
 use validators::{Criteria, Criterion};
 
@@ -78,9 +79,13 @@ pub(crate) fn idea(brief: &Brief, criteria: &Criteria, earlier: &[Draft]) -> Str
 
 /// Returns the message that opens the second stage.
 pub(crate) fn rules(brief: &Brief, idea: &Idea) -> String {
-    let required = brief.required.iter().map(String::as_str);
-    let mut detailed: Vec<&str> = required.chain(DETAILED).collect();
-    detailed.dedup();
+    let required: Vec<String> = brief.required.iter().flat_map(|word| keywords(word)).collect();
+    let mut detailed: Vec<&str> = Vec::new();
+    for word in required.iter().map(String::as_str).chain(DETAILED) {
+        if !detailed.contains(&word) {
+            detailed.push(word);
+        }
+    }
     let details: Vec<String> = detailed.into_iter().filter_map(editor::introduction).collect();
     let text = filled(
         include_str!("rules.md"),
@@ -161,12 +166,23 @@ fn assignment(brief: &Brief) -> String {
             .push(format!("- The last level must be demanding: at least {} moves.", tier.bounds().decisions));
     }
     for word in &brief.required {
-        lines.push(format!("- The rules must use `{word}`."));
+        lines.push(requirement(word));
     }
     for game in &brief.unlike {
         lines.push(format!("- The rules must differ from those of the game `{}`.", game.name));
     }
     if lines.is_empty() { String::new() } else { format!("\n## Requirements\n\n{}\n", lines.join("\n")) }
+}
+
+/// Describes a required word or mechanic.
+fn requirement(word: &str) -> String {
+    let Some(mechanic) = MechanicInWords::of(word) else { return format!("- The rules must use `{word}`.") };
+    let keywords: Vec<String> = mechanic.keywords.iter().map(|key| format!("`{key}`")).collect();
+    format!(
+        "- The rules must contain the following mechanic, with other nouns, and must use {}. {}.",
+        keywords.join(", "),
+        mechanic.says.join(". ")
+    )
 }
 
 /// Lists words with the first sentences of their pages.
@@ -219,7 +235,7 @@ mod tests {
             levels: 3,
             theme: Some("snow".to_owned()),
             tier: None,
-            required: vec!["Spreader".to_owned()],
+            required: vec!["Spreader".to_owned(), "ignite".to_owned()],
             unlike: Vec::new(),
         };
         let criteria = crate::DesignSettings::criteria(1000);
@@ -232,6 +248,7 @@ mod tests {
             assert!(tokens < most, "{tokens} tokens\n{text}");
         }
         assert!(first.contains("The theme of the game is: snow"));
+        assert!(first.contains("Walk against a hedge with a torch") && second.contains("**spawnIfHasMore**"));
         assert!(second.contains("**Spreader**") && second.contains("A {brace} of ideas."));
         assert!(third.contains("Draw 3 levels") && third.contains("at least 25 ticks"), "{third}");
     }

@@ -135,8 +135,8 @@ fn problem(rules: &Rules, loaded: &Loaded, report: &GameReport, tiers: Option<(T
     if let Some((wanted, found)) = tiers.filter(|(wanted, found)| found < wanted) {
         text += &format!("\nThe last level belongs to tier {found}, but tier {wanted} is required.\n");
     }
-    let obstacle = report.levels.iter().flat_map(|level| &level.judgements).chain(&report.judgements);
-    let obstacle = obstacle.into_iter().find(|judgement| !judgement.finding.verdict.is_pass());
+    let mut judgements = report.levels.iter().flat_map(|level| &level.judgements).chain(&report.judgements);
+    let obstacle = judgements.find(|judgement| !judgement.finding.verdict.is_pass());
     let summary = obstacle.map_or("the tier is too low".to_owned(), |judgement| {
         format!("{}: {}", judgement.criterion, judgement.answer())
     });

@@ -1,7 +1,7 @@
 //! The check of rules: they compile, they use the required words, and they are new.
 
 use super::Problem;
-use crate::brief::{Brief, uses};
+use crate::brief::{Brief, keywords, uses};
 use crate::known::{Known, Nearest};
 use editor::Source;
 use engine::Game;
@@ -33,8 +33,13 @@ pub(crate) fn compile(source: &str, known: &Known) -> Result<Rules, Problem> {
 
 /// Checks rules that compile.
 pub(crate) fn check(rules: &Rules, brief: &Brief) -> Result<(), Problem> {
-    if let Some(word) = brief.required.iter().find(|word| !uses(&rules.source, word)) {
-        return Err(Problem::plain(format!("The rules do not use `{word}`, which is required: add it.")));
+    let required = brief.required.iter();
+    let mut words = required.flat_map(|word| keywords(word).into_iter().map(move |key| (word, key)));
+    if let Some((word, key)) = words.find(|(_, key)| !uses(&rules.source, key)) {
+        let cause = if *word == key { String::new() } else { format!(" by the mechanic `{word}`") };
+        return Err(Problem::plain(format!(
+            "The rules do not use `{key}`, which is required{cause}: add it."
+        )));
     }
     match &rules.nearest {
         Some(nearest) if !nearest.is_far() => Err(Problem::plain(format!(

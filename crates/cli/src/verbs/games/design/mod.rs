@@ -23,7 +23,7 @@ use validators::{Criteria, Tier};
 /// accepted games in games/, which every command accepts, with the provenance of each; the log of all questions and
 /// answers; and results.json. See `arcade docs design`.
 ///
-/// Exit status 0: all drafts were written; accepted or not. 1: a cap was reached first (raise it and use --resume), or a replay
+/// Exit status 0: all drafts were written, accepted or not. 1: a cap was reached first (raise it and use --resume), or a replay
 /// differs. 2: malformed input. 3: network, server or disk failed; --resume continues. 128 + signal, such as 130 for
 /// Ctrl-C: interrupted; --resume continues.
 ///
@@ -49,7 +49,7 @@ pub(crate) struct Args {
     /// The minimum tier of each game's last level, from 1 to 4 (see `arcade docs tiers`)
     #[arg(long, value_name = "TIER", value_parser = tier)]
     tier: Option<Tier>,
-    /// Sprite classes, effects and terminations that each game must use, such as `Chaser,bounceForward`
+    /// Sprite classes, effects, terminations and mechanics that each game must use, such as `Chaser,ignite`
     #[arg(long, value_name = "WORD", value_delimiter = ',')]
     require: Vec<String>,
     /// Games from which each game must differ, besides the corpus, the kernels and earlier drafts. May be repeated
@@ -100,6 +100,11 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let unlike = unlike(&args.unlike)?;
     let known = known(&unlike)?;
     let settings = settings(args, &requested, unlike, &known)?;
+    if args.client.has_concurrency() {
+        bail!(
+            "--concurrency does not apply to `arcade design`, which writes one draft after another; remove it"
+        );
+    }
     protected::check(out)?;
     let folder = match args.resume {
         true => DesignFolder::resume(out, &settings)?,
