@@ -46,6 +46,9 @@ struct Forge;
 #[doc = include_str!("../../crates/snapshots/README.md")]
 struct Snapshots;
 
+#[doc = include_str!("../../crates/design/README.md")]
+struct Design;
+
 #[doc = include_str!("../../crates/pages/README.md")]
 struct Pages;
 

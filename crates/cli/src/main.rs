@@ -85,6 +85,7 @@ verbs! {
         Generate: generate,
         Studio: studio;
         more
+        Design: design,
         Describe: describe,
         Render: render,
         Fmt: fmt,

@@ -25,6 +25,6 @@ pub use hover::{Hover, hover, level_hover};
 pub use in_words::{Source, colours, help, in_words, one_in_words};
 pub use navigate::{definition, level_definition, references};
 pub use outline::{Entry, EntryKind, outline};
-pub use pages::page;
+pub use pages::{introduction, page, summary};
 pub use problems::{LevelRules, Problem, applied, level_problems, problems};
 pub use rename::{RenameError, renamable, rename, rename_in_level};

@@ -24,7 +24,7 @@ fn text(folder: &str, name: &str) -> Option<&'static str> {
 }
 
 /// Returns the introduction from a keyword's page: its title, its first paragraph, and its parameters.
-pub(crate) fn introduction(word: &str) -> Option<String> {
+pub fn introduction(word: &str) -> Option<String> {
     let page = of_word(word)?;
     let mut markdown = format!("**{word}**\n\n{}\n", summary(word)?);
     let rows: Vec<&str> = page.lines().skip_while(|line| !line.starts_with("| parameter")).collect();
@@ -37,7 +37,7 @@ pub(crate) fn introduction(word: &str) -> Option<String> {
 }
 
 /// Returns the first paragraph of a keyword's page, as one line.
-pub(crate) fn summary(word: &str) -> Option<String> {
+pub fn summary(word: &str) -> Option<String> {
     let body = of_word(word)?.split_once('\n')?.1.trim_start();
     let paragraph = body.split("\n\n").next()?;
     Some(unlinked(&paragraph.lines().collect::<Vec<_>>().join(" ")))

@@ -14,6 +14,7 @@ pub mod levels;
 pub mod pipeline;
 mod progress;
 mod reported;
+pub mod review;
 mod search_loop;
 pub mod survey;
 mod tally;

@@ -3,6 +3,7 @@
 use super::fiction::Predicates;
 use crate::games::Kind;
 use crate::kernels::file::template::{Numbers, Template};
+use engine::{EFFECTS, SpriteClass, TERMINATIONS};
 use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -241,6 +242,41 @@ impl Mechanic {
             }
         }
         Ok(mechanic)
+    }
+}
+
+/// A mechanic in words, for people and models that write games by hand.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MechanicInWords {
+    /// The sentences that players read, with example nouns.
+    pub says: Vec<String>,
+    /// The sprite classes, effects and terminations that the mechanic uses, sorted.
+    pub keywords: Vec<String>,
+}
+
+impl MechanicInWords {
+    /// Returns the names of all mechanics and endings, sorted.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        Mechanic::all().iter().map(|mechanic| mechanic.name.as_str())
+    }
+
+    /// Returns a mechanic or an ending by its name, or `None` if there is none.
+    pub fn of(name: &str) -> Option<MechanicInWords> {
+        Mechanic::all().iter().find(|mechanic| mechanic.name == name)?;
+        let text = FILES.get_file(format!("{name}.toml"))?.contents_utf8()?;
+        let file: File = toml::from_str(text).ok()?;
+        let parts = [Some(file.sprites), Some(file.before), Some(file.rules), file.hero, file.heroes];
+        let parts: String = parts.into_iter().flatten().chain([file.terminations]).collect();
+        let classes = SpriteClass::ALL.iter().map(|class| class.name());
+        let known: Vec<&str> =
+            classes.chain(EFFECTS.iter().copied()).chain(TERMINATIONS.iter().copied()).collect();
+        let tokens = parts.split(|c: char| !c.is_ascii_alphanumeric());
+        let mut keywords: Vec<String> =
+            tokens.filter(|token| known.contains(token)).map(str::to_owned).collect();
+        keywords.sort();
+        keywords.dedup();
+        let says = file.says.into_iter().chain(file.goal).map(|said| said.replace(['<', '>'], "")).collect();
+        Some(MechanicInWords { says, keywords })
     }
 }
 

@@ -22,6 +22,7 @@ mod variation;
 
 pub use draw::{Census, InventionConfig, Lead, share_idea};
 pub use genome::{Invented, Invention};
+pub use mechanic::MechanicInWords;
 pub use profile::{Profile, Verb};
 pub use supply::InventionSupply;
 pub use variation::InventionVariation;

@@ -4,6 +4,7 @@ mod altered_rows;
 mod arcade;
 mod begin;
 mod contamination;
+mod design;
 mod evaluate;
 #[cfg(feature = "parquet")]
 mod export;

@@ -25,6 +25,22 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("render", &["engine"]),
     ("evaluation", &["base", "disk", "loopback", "engine", "agents", "render", "report", "statistics"]),
     (
+        "design",
+        &[
+            "base",
+            "disk",
+            "engine",
+            "editor",
+            "agents",
+            "generators",
+            "validators",
+            "forge",
+            "evaluation",
+            "report",
+            "statistics",
+        ],
+    ),
+    (
         "pages",
         &[
             "base",
@@ -90,6 +106,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "statistics",
             "render",
             "evaluation",
+            "design",
             "pages",
             "terminal",
             "studio",

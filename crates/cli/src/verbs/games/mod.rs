@@ -1,6 +1,7 @@
 //! The subcommands under "Make games" in the help.
 
 pub(crate) mod describe;
+pub(crate) mod design;
 pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod lsp;

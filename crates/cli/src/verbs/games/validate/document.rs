@@ -1,11 +1,11 @@
 //! The machine-readable answer. The schema is in `docs/reference/validate.md`.
 
-use crate::diagnostics::Named;
 use crate::failure::Placed;
 use base::Digest;
-use engine::{Episode, line_and_column};
+use engine::Episode;
+use forge::review::{Review, ReviewedLevel};
 use serde::Serialize;
-use validators::{Criteria, Finding, Judgement, Report};
+use validators::{Criteria, Judgement, Report};
 
 #[derive(Default, Serialize)]
 pub(super) struct Document<'a> {
@@ -35,9 +35,21 @@ pub(super) struct LevelDocument<'a> {
     pub(super) witness: Option<&'a Episode>,
 }
 
-/// Fills in the line numbers of the rules in the evidence.
-pub(super) fn locate(finding: &mut Finding, source: &Named) {
-    for rule in finding.evidence.iter_mut().filter_map(|seen| seen.rule.as_mut()) {
-        rule.line = Some(line_and_column(&source.text, rule.span.start).0);
+impl Document<'_> {
+    /// Returns the parts of the document that the answer in words contains.
+    pub(super) fn review<'a>(&'a self, warnings: &'a [String]) -> Review<'a> {
+        let level = |level: &'a LevelDocument<'_>| ReviewedLevel {
+            name: &level.level,
+            passes: level.passes,
+            board: &level.board,
+            report: level.report,
+        };
+        Review {
+            source: &self.game,
+            passes: self.passes,
+            levels: self.levels.iter().map(level).collect(),
+            judgements: self.judgements,
+            warnings,
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! `arcade validate`: judges whether a game or level is well-formed, winnable, fair and worth playing.
 
 mod document;
-mod text;
 
 use crate::console::Console;
 use crate::diagnostics::Named;
@@ -14,6 +13,7 @@ use base::MessagePath;
 use base::Seed;
 use document::{Document, LevelDocument};
 use engine::{Analysis, Diagnostic, Diagnostics, Game, Level, LevelMapping, describe};
+use forge::review::locate;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use validators::{Criteria, CriterionSet, Effort, Judging, Panel, Report};
@@ -120,7 +120,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     bar.finish_and_clear();
     let findings = judged.iter_mut().filter_map(|judged| judged.report.as_mut());
     let findings = findings.flat_map(|report| &mut report.judgements).chain(&mut of_game);
-    findings.for_each(|judgement| document::locate(&mut judgement.finding, &input.source));
+    findings.for_each(|judgement| locate(&mut judgement.finding, &input.source.text));
 
     let analysis = Analysis::of(&game);
     let documents: Vec<LevelDocument<'_>> =
@@ -143,7 +143,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     };
     console.document(&document)?;
     let warnings = warnings(&game, &input.source, &judged);
-    let text = text::review(&document, &input.source, &warnings, console.is_quiet());
+    let text = document.review(&warnings).text(console.is_quiet());
     if !text.is_empty() {
         console.say(text.trim_end());
     }

@@ -160,7 +160,7 @@ impl RequestedPlayer {
                 })
             }
             RequestedPlayer::Process(read) => {
-                let (command, timeout) = (read.command().to_owned(), args.model.timeout());
+                let (command, timeout) = (read.command().to_owned(), args.model.client.timeout());
                 let remark = console.remarks();
                 let track = args.model.prompt.track.unwrap_or(Track::Told);
                 let process = move || {
@@ -187,7 +187,7 @@ impl RequestedPlayer {
     /// spend most of their time waiting.
     pub(super) fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
-            RequestedPlayer::Model(_) => args.model.concurrency().get(),
+            RequestedPlayer::Model(_) => args.model.client.concurrency().get(),
             RequestedPlayer::Human(_) => 1,
             RequestedPlayer::Mailbox(_) => threads::jobs().unwrap_or(1),
             _ => threads::jobs()
@@ -220,10 +220,10 @@ pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> R
         };
     }
     let player = args.player.as_deref().unwrap_or_default();
-    if let Some(flag) = args.model.unused_without_model() {
+    if let Some(flag) = args.model.client.unused_without_model() {
         bail!("{flag} applies only to language models (--model); remove it for the player `{player}`");
     }
-    if args.model.timeout.is_some() && !matches!(requested, RequestedPlayer::Process(_)) {
+    if args.model.client.timeout.is_some() && !matches!(requested, RequestedPlayer::Process(_)) {
         bail!(
             "--timeout applies only to language models (--model) and programs (`cmd:`); remove it for the \
              player `{player}`"
@@ -248,7 +248,7 @@ pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> R
 }
 
 pub(super) fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> {
-    if let Some(id) = &args.model.model {
+    if let Some(id) = &args.model.client.model {
         return Ok(RequestedPlayer::Model(Box::new(model::RequestedModel::new(id, &args.model)?)));
     }
     let Some(player) = args.player.as_deref() else {
@@ -271,7 +271,7 @@ pub(super) fn requested_player(args: &Args) -> Result<RequestedPlayer, Failure> 
         return Ok(RequestedPlayer::Mailbox(RequestedMailbox::new(folder, args)?));
     }
     if let Some(command) = player.strip_prefix("cmd:") {
-        let process = process(command, args.model.timeout()).map_err(Failure::malformed)?;
+        let process = process(command, args.model.client.timeout()).map_err(Failure::malformed)?;
         #[cfg(unix)]
         process.find().map_err(Failure::malformed)?;
         return Ok(RequestedPlayer::Process(Box::new(process)));

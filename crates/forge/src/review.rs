@@ -1,9 +1,11 @@
-//! The human-readable answer: first the verdict, then the reasons.
+//! Judgements on a game in words: first the verdict, then the reasons. `arcade validate` prints them, and models that
+//! design games read them.
 
-use super::document::{Document, LevelDocument};
-use crate::diagnostics::Named;
+use engine::line_and_column;
 use std::fmt::Write;
-use validators::{Criterion, Difficulty, Evidence, Judgement, Ladder, PlayerResult, Rate, Verdict};
+use validators::{
+    Criterion, Difficulty, Evidence, Finding, Judgement, Ladder, PlayerResult, Rate, Report, Verdict,
+};
 
 /// The maximum width of a board to show, in columns.
 const MAX_WIDTH: usize = 100;
@@ -14,19 +16,59 @@ const MOST_SEEN: usize = 6;
 /// The maximum number of links to show per causal chain.
 const MOST_LINKS: usize = 16;
 
-/// Returns the complete answer: the verdicts, the warnings about the files, and the criteria. A quiet answer
-/// omits everything that passes, so it is empty if everything passes.
-pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String], quiet: bool) -> String {
+/// A judged game, to be put into words.
+pub struct Review<'a> {
+    /// The name of the game's file in messages, such as `game.vgdl`.
+    pub source: &'a str,
+    /// `true` if every level and the game meet every criterion.
+    pub passes: bool,
+    /// The levels, in order.
+    pub levels: Vec<ReviewedLevel<'a>>,
+    /// The judgements on the game across all its levels.
+    pub judgements: &'a [Judgement],
+    /// The warnings about the files, as text.
+    pub warnings: &'a [String],
+}
+
+/// A level of a judged game.
+pub struct ReviewedLevel<'a> {
+    /// The name of the level's file in messages, such as `lvl0.txt`.
+    pub name: &'a str,
+    /// `true` if the level meets every criterion.
+    pub passes: bool,
+    /// The level's characters, from top to bottom.
+    pub board: &'a [String],
+    /// The findings, or `None` if the text is not a level of the game.
+    pub report: Option<&'a Report>,
+}
+
+/// Fills in the line numbers of the rules in a finding's evidence. `source` is the game's text.
+pub fn locate(finding: &mut Finding, source: &str) {
+    for rule in finding.evidence.iter_mut().filter_map(|seen| seen.rule.as_mut()) {
+        rule.line = Some(line_and_column(source, rule.span.start).0);
+    }
+}
+
+impl Review<'_> {
+    /// Returns the review as text: the verdicts, the warnings about the files, and the criteria. A quiet review omits
+    /// everything that passes, so it is empty if everything passes.
+    pub fn text(&self, quiet: bool) -> String {
+        review(self, quiet)
+    }
+}
+
+fn review(document: &Review<'_>, quiet: bool) -> String {
+    let (source, warnings) = (document.source, document.warnings);
     if quiet && document.passes {
         return String::new();
     }
-    let shown: Vec<&LevelDocument<'_>> =
+    let shown: Vec<&ReviewedLevel<'_>> =
         document.levels.iter().filter(|level| !quiet || !level.passes).collect();
     let mut text = String::new();
-    let names = document.levels.iter().map(|level| level.level.len());
-    let width = names.chain([source.name.len()]).max().unwrap_or_default();
+    let names = document.levels.iter().map(|level| level.name.len());
+    let width = names.chain([source.len()]).max().unwrap_or_default();
     for level in &shown {
-        let _ = writeln!(text, "{:<width$}  {}", level.level, headline(level, source));
+        let _ = writeln!(text, "{:<width$}  {}", level.name, headline(level, source));
     }
     let passed = document.levels.iter().filter(|level| level.passes).count();
     let count = document.levels.len();
@@ -41,17 +83,16 @@ pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String
     let word = if document.passes { "passes" } else { "does not pass" };
     let _ = writeln!(
         text,
-        "{:<width$}  {word}: {passed} of {count} levels meet every criterion{of_game}",
-        source.name
+        "{source:<width$}  {word}: {passed} of {count} levels meet every criterion{of_game}"
     );
     for warning in warnings {
         let _ = writeln!(text, "\n{}", warning.trim_end());
     }
     for level in &shown {
         if let Some(report) = level.report {
-            let _ = writeln!(text, "\n{}", level.level);
+            let _ = writeln!(text, "\n{}", level.name);
             if !report.passes() {
-                board(&mut text, &level.board);
+                board(&mut text, level.board);
             }
             let mut boards = 0;
             for judgement in &report.judgements {
@@ -63,7 +104,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String
         }
     }
     if !document.judgements.is_empty() && (!quiet || together.is_some()) {
-        let _ = writeln!(text, "\n{}, all levels together", source.name);
+        let _ = writeln!(text, "\n{source}, all levels together");
         let mut boards = 0;
         for judgement in document.judgements {
             criterion(&mut text, judgement, source, &mut boards);
@@ -73,7 +114,7 @@ pub(super) fn review(document: &Document<'_>, source: &Named, warnings: &[String
 }
 
 /// Returns the verdict on a level, on one line.
-fn headline(level: &LevelDocument<'_>, source: &Named) -> String {
+fn headline(level: &ReviewedLevel<'_>, source: &str) -> String {
     let Some(report) = level.report else { return "is not a level of this game".to_owned() };
     if let Some(judgement) = report.first_obstacle() {
         return obstacle(judgement, source);
@@ -96,7 +137,7 @@ fn in_words(difficulty: Difficulty) -> String {
 
 /// Returns one line with the reason why a criterion does not pass, and the position of the rule that it
 /// quotes.
-fn obstacle(judgement: &Judgement, source: &Named) -> String {
+fn obstacle(judgement: &Judgement, source: &str) -> String {
     let Judgement { criterion, finding } = judgement;
     match &finding.verdict {
         Verdict::Fail { reason, .. } => {
@@ -104,7 +145,7 @@ fn obstacle(judgement: &Judgement, source: &Named) -> String {
             let line = rules
                 .filter(|rule| reason.0.contains(&format!("`{}`", rule.text)))
                 .find_map(|rule| rule.line);
-            let place = line.map_or(String::new(), |line| format!(" ({}:{line})", source.name));
+            let place = line.map_or(String::new(), |line| format!(" ({}:{line})", source));
             format!("FAILS {criterion}: {}{place}", reason.0)
         }
         _ => format!("not shown to pass {criterion}: {}", judgement.answer()),
@@ -112,7 +153,7 @@ fn obstacle(judgement: &Judgement, source: &Named) -> String {
 }
 
 /// Writes one criterion, with its answer and its evidence.
-fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &mut usize) {
+fn criterion(text: &mut String, judgement: &Judgement, source: &str, boards: &mut usize) {
     let Judgement { criterion, finding } = judgement;
     let mark = match &finding.verdict {
         Verdict::Pass { .. } => "pass",
@@ -165,7 +206,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &Named, boards: &
 }
 
 /// Writes a piece of evidence: its text, followed by its tick, cell and line.
-fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
+fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &str) {
     let mut parts = Vec::new();
     if !said.contains(seen.text.as_str()) {
         parts.push(seen.text.clone());
@@ -178,7 +219,7 @@ fn evidence(text: &mut String, seen: &Evidence, said: &str, source: &Named) {
     }
     if let Some(rule) = &seen.rule {
         let quoted = format!("`{}`", rule.text);
-        let place = rule.line.map_or(String::new(), |line| format!("{}:{line}", source.name));
+        let place = rule.line.map_or(String::new(), |line| format!("{}:{line}", source));
         let said = said.contains(&quoted) || seen.text.contains(&quoted);
         parts.push(if said { place } else { format!("{place} {quoted}") });
     }

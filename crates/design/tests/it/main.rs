@@ -1,0 +1,6 @@
+//! Tests of whole runs with a scripted designer.
+
+mod games;
+mod runs;
+mod scores;
+mod scripted;
