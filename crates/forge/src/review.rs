@@ -81,10 +81,8 @@ fn review(document: &Review<'_>, quiet: bool) -> String {
         None => String::new(),
     };
     let word = if document.passes { "passes" } else { "does not pass" };
-    let _ = writeln!(
-        text,
-        "{source:<width$}  {word}: {passed} of {count} levels meet every criterion{of_game}"
-    );
+    let _ =
+        writeln!(text, "{source:<width$}  {word}: {passed} of {count} levels meet every criterion{of_game}");
     for warning in warnings {
         let _ = writeln!(text, "\n{}", warning.trim_end());
     }
