@@ -367,3 +367,15 @@ def test_importing_the_package_registers_the_environments() -> None:
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "hailglass\n"
     script = "import gymnasium; gymnasium.make_vec('infinite_arcade:InfiniteArcade/Game-v0', game='hailglass')"
     subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_seeds_are_derived_as_before() -> None:
+    """Recorded seeds keep their episodes, whatever levels the environment has."""
+    for levels in (None, 0):
+        env = arcade.GameEnv("heath-fire", levels)
+        found = [env.reset(seed=7)[1]["seed"], env.reset()[1]["seed"]]
+        assert found == [ia.seed_child("7", "episode", at) for at in range(2)]
+        envs = arcade.GameVectorEnv("heath-fire", levels, num_envs=3)
+        envs.reset(seed=7)
+        lanes = [ia.seed_child("7", "lane", at) for at in range(3)]
+        assert envs.seeds == [ia.seed_child(lane, "episode", 0) for lane in lanes]
