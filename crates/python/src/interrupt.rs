@@ -30,6 +30,10 @@ impl Interrupt {
 }
 
 impl Progress for Interrupt {
+    fn start(&self) {
+        self.check();
+    }
+
     fn looked(&self) {
         self.check();
     }
