@@ -29,7 +29,7 @@ class State:
 
     A state is a value. A :meth:`copy` is independent of the original, and the same actions lead both states to the
     same hashes. A pickled state consists of the texts of game and level, the seed and the actions. To unpickle it,
-    the actions are played again, at a cost of one forward-model call per tick.
+    the actions are replayed, at a cost of one forward-model call per tick.
     """
 
     __slots__ = ("_native",)
