@@ -7,8 +7,11 @@
 'ongoing'
 
 The environments are in :mod:`infinite_arcade.gymnasium`, the evaluation tasks in :mod:`infinite_arcade.inspect`, and
-the tables in :mod:`infinite_arcade.tables`. The package does not import these modules, so it needs only NumPy.
+the tables in :mod:`infinite_arcade.tables`. The package needs only NumPy. If Gymnasium is installed, importing the
+package registers the environments.
 """
+
+from contextlib import suppress
 
 from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, VgdlError, __version__
 from .games import CorpusGame, Episode, Game, Level, State, corpus, load, seed_child, seed_from_text
@@ -46,3 +49,7 @@ __all__ = [
     "validate",
     "verify",
 ]
+
+# Gymnasium is missing, or is too old for the environments.
+with suppress(ImportError):
+    from . import gymnasium as gymnasium

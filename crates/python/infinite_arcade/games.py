@@ -7,8 +7,7 @@ import json
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._arguments import Seed, did_you_mean, seed_text
 from ._native import ArcadeError, seed_child, seed_from_text
 
 __all__ = ["CorpusGame", "Episode", "Game", "Level", "State", "corpus", "load", "seed_child", "seed_from_text"]
@@ -28,13 +28,20 @@ class State:
     """The state of an episode.
 
     A state is a value. A :meth:`copy` is independent of the original, and the same actions lead both states to the
-    same hashes.
+    same hashes. A pickled state consists of the texts of game and level, the seed and the actions. To unpickle it,
+    the actions are replayed, at a cost of one forward-model call per tick.
     """
 
     __slots__ = ("_native",)
 
     def __init__(self, native: _native.State) -> None:
         self._native = native
+
+    def __reduce__(self) -> Any:
+        return _state_of, (_parts_of(self._native.level), self._native.history)
+
+    def __deepcopy__(self, _memo: Any) -> State:
+        return self.copy()
 
     @property
     def ticks(self) -> int:
@@ -98,9 +105,13 @@ class State:
 
     __copy__ = copy
 
-    def fork(self, seed: str) -> State:
-        """Returns a copy of the state with a different random future, for planners to search."""
-        return State(self._native.fork(seed))
+    def fork(self, seed: Seed) -> State:
+        """Returns a copy of the state with a different random future, for planners to search.
+
+        Raises:
+            TypeError: if ``seed`` is neither a text nor an integer.
+        """
+        return State(self._native.fork(seed_text(seed)))
 
     def observe(self) -> dict[str, Any]:
         """Returns a player's observation as a dictionary.
@@ -161,7 +172,7 @@ class State:
 
 
 class Level:
-    """A level of a particular game."""
+    """A level of a particular game. A pickled level consists of the texts of game and level."""
 
     __slots__ = ("_native", "number", "optimal_ticks")
 
@@ -171,6 +182,9 @@ class Level:
         self.number = number
         #: The number of ticks in the shortest win, if that win is proved to be optimal.
         self.optimal_ticks = optimal_ticks
+
+    def __reduce__(self) -> Any:
+        return _level_of, (_parts_of(self._native), self.number, self.optimal_ticks)
 
     @property
     def name(self) -> str:
@@ -196,11 +210,15 @@ class Level:
         """Returns the facts proven about the level, one sentence per fact."""
         return self._native.describe()
 
-    def start(self, seed: str) -> State:
-        """Returns the state before the first tick. The game's randomness is derived from the text ``seed``. If the
-        text has 64 hexadecimal digits, they are the seed itself.
+    def start(self, seed: Seed) -> State:
+        """Returns the state before the first tick. The game's randomness is derived from ``seed``, which is a text or
+        an integer. If the text has 64 hexadecimal digits, they are the seed itself. An integer is the same seed as
+        its decimal digits.
+
+        Raises:
+            TypeError: if ``seed`` is neither a text nor an integer.
         """
-        return State(self._native.start(seed))
+        return State(self._native.start(seed_text(seed)))
 
     def _repr_html_(self) -> str:
         return self.start("preview")._repr_html_()
@@ -216,7 +234,7 @@ class Episode:
     """
 
     level: Level
-    seed: str
+    seed: Seed
     actions: tuple[str, ...]
 
     def replay(self) -> State:
@@ -232,7 +250,7 @@ class Episode:
         Raises:
             ValueError: if any name is not the name of an action, or the images would be too large.
         """
-        return self.level._native.gif(self.seed, list(self.actions), cell, delay, caption)
+        return self.level._native.gif(seed_text(self.seed), list(self.actions), cell, delay, caption)
 
     def _repr_html_(self) -> str:
         cell = max(8, min(24, _NOTEBOOK_PIXELS // max(*self.level.size, 1)))
@@ -240,7 +258,9 @@ class Episode:
 
 
 class Game:
-    """A compiled game and its levels."""
+    """A compiled game and its levels. A pickled game consists of the texts of the game and its levels, and is compiled
+    again when it is unpickled.
+    """
 
     __slots__ = ("_native", "id", "levels", "title")
 
@@ -249,7 +269,7 @@ class Game:
         source: str,
         levels: Sequence[str] = (),
         *,
-        name: str = "game.vgdl",
+        name: str | None = None,
         id: str | None = None,
         title: str | None = None,
         as_reference: bool = False,
@@ -260,32 +280,52 @@ class Game:
             source: the rules of the game in VGDL.
             levels: the texts of the levels, in order.
             name: the name of the game in messages.
-            id: the name of the game in logs and tables.
-            title: the title of the game.
+            id: the name of the game in logs and tables; by default ``name`` without its extension, followed by the
+                first digits of the digest if ``name`` is not given.
+            title: the title of the game; by default its ID.
             as_reference: tolerate the faults that the reference engine tolerates.
 
         Raises:
             VgdlError: if the game or a level has problems. The exception prints like the messages of ``arcade``.
         """
-        self._native = _native.Game(source, name=name, as_reference=as_reference)
-        self.id = id or Path(name).stem
+        self._native = _native.Game(source, name=name or "game.vgdl", as_reference=as_reference)
+        self.id = id or (Path(name).stem if name else f"game-{self.digest[:8]}")
         self.title = title or self.id
         #: The levels of the game, in order.
         self.levels: list[Level] = []
         for text in levels:
-            self.level(text)
+            self.levels.append(self.level(text))
+
+    def __reduce__(self) -> Any:
+        rules = (self.source, self.name, self._native.as_reference)
+        levels = [(level.text, level.name, level.number, level.optimal_ticks) for level in self.levels]
+        return _game_of, (rules, self.id, self.title, levels)
 
     def level(self, text: str, *, name: str | None = None, optimal_ticks: int | None = None) -> Level:
-        """Checks the text of a level, adds it to :attr:`levels` and returns it.
+        """Checks the text of a level and returns the level. Its number is that of the next level of the game. The
+        game itself does not change: to add the level, append it to :attr:`levels`.
 
         Raises:
             VgdlError: if the level has problems.
         """
         number = len(self.levels)
         native = self._native.level(text, name=name or f"lvl{number}.txt")
-        level = Level(native, number, optimal_ticks)
-        self.levels.append(level)
-        return level
+        return Level(native, number, optimal_ticks)
+
+    def save(self, folder: str | Path) -> None:
+        """Writes the game and its levels into a folder, from which :func:`load` and ``arcade`` read them. The files
+        are ``game.vgdl``, ``lvl0.txt`` and so on.
+
+        Raises:
+            FileExistsError: if the folder exists and is not empty.
+        """
+        folder = Path(folder)
+        if folder.exists() and any(folder.iterdir()):
+            raise FileExistsError(f"{folder}: the folder is not empty; pass an empty or a new folder")
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "game.vgdl").write_text(self.source, "utf-8")
+        for number, level in enumerate(self.levels):
+            (folder / f"lvl{number}.txt").write_text(level.text, "utf-8")
 
     @property
     def name(self) -> str:
@@ -392,7 +432,10 @@ def load(game: str | Path, *, as_reference: bool = False) -> Game:
         FileNotFoundError: if there is no such file, folder or corpus game.
         VgdlError: if the game or one of its levels has problems.
         ArcadeError: if a file is not UTF-8, or a folder contains several games.
+        TypeError: if ``game`` is neither a path nor a name.
     """
+    if not isinstance(game, (str, Path)):
+        raise TypeError(f"`game` must be one game, by path or name, not {type(game).__name__}")
     path = Path(game)
     asked = None
     if path.is_dir():
@@ -405,9 +448,8 @@ def load(game: str | Path, *, as_reference: bool = False) -> Game:
     elif not path.exists():
         if str(game) in corpus():
             return corpus()[str(game)].compile()
-        near = get_close_matches(str(game), corpus(), n=1)
-        help = f"; did you mean the corpus game `{near[0]}`?" if near else ""
-        raise FileNotFoundError(f"{game}: there is no such file, folder or corpus game{help}")
+        hint = did_you_mean(str(game), corpus(), "the corpus game ")
+        raise FileNotFoundError(f"{game}: there is no such file, folder or corpus game{hint}")
     elif (source := _native.game_of_level(path.name, _names(path.parent))) is not None:
         asked, path = path, path.parent / source
     own = _native.levels_of_files(path.name, _names(path.parent))
@@ -415,8 +457,56 @@ def load(game: str | Path, *, as_reference: bool = False) -> Game:
     id = path.parent.resolve().name if path.stem.lower() == "game" else path.stem
     loaded = Game(_text(path), name=str(path), id=id, as_reference=as_reference)
     for file in files:
-        loaded.level(_text(file), name=str(file))
+        loaded.levels.append(loaded.level(_text(file), name=str(file)))
     return loaded
+
+
+def game_of(game: str | Path | Game) -> Game:
+    """Returns the game itself, or the game that :func:`load` loads."""
+    return game if isinstance(game, Game) else load(game)
+
+
+#: The parts of a pickled level: source, name and mode of the game, then text and name of the level.
+_Parts = tuple[str, str, bool, str, str]
+
+
+def _parts_of(level: _native.Level) -> _Parts:
+    game = level.game
+    return game.source, game.name, game.as_reference, level.text, level.name
+
+
+@lru_cache(maxsize=64)
+def _compiled(source: str, name: str, as_reference: bool) -> _native.Game:
+    return _native.Game(source, name=name, as_reference=as_reference)
+
+
+def _native_level_of(parts: _Parts) -> _native.Level:
+    source, name, as_reference, text, level_name = parts
+    return _compiled(source, name, as_reference).level(text, name=level_name)
+
+
+def _level_of(parts: _Parts, number: int, optimal_ticks: int | None) -> Level:
+    return Level(_native_level_of(parts), number, optimal_ticks)
+
+
+def _state_of(parts: _Parts, history: list[tuple[str, list[str]]]) -> State:
+    (seed, actions), *forks = history
+    state = _native_level_of(parts).start(seed)
+    state.play(actions)
+    for seed, actions in forks:
+        state = state.fork(seed)
+        state.play(actions)
+    return State(state)
+
+
+def _game_of(
+    rules: tuple[str, str, bool], id: str, title: str, levels: list[tuple[str, str, int, int | None]]
+) -> Game:
+    source, name, as_reference = rules
+    game = Game(source, name=name, id=id, title=title, as_reference=as_reference)
+    for text, level_name, number, optimal_ticks in levels:
+        game.levels.append(Level(game._native.level(text, name=level_name), number, optimal_ticks))
+    return game
 
 
 def _names(folder: Path) -> list[str]:

@@ -1,23 +1,29 @@
 """Environments for Gymnasium: ``InfiniteArcade/Game-v0``, alone and in vectors.
 
->>> import gymnasium, infinite_arcade.gymnasium
->>> env = gymnasium.make("InfiniteArcade/Game-v0", game="hailglass", level=0)
+>>> import gymnasium, infinite_arcade
+>>> env = gymnasium.make("InfiniteArcade/Game-v0", game="hailglass")
 >>> envs = gymnasium.make_vec("InfiniteArcade/Game-v0", num_envs=4096, game="hailglass")
 
-Importing this module registers the ID. ``gymnasium.make("infinite_arcade.gymnasium:InfiniteArcade/Game-v0", …)`` also
-imports the module.
+``import infinite_arcade`` registers this ID, and one ID per corpus game, such as ``InfiniteArcade/Hailglass-v0``. In a
+process that has not imported the package, ``gymnasium.make("infinite_arcade:InfiniteArcade/Game-v0", …)`` imports it.
 
-There are three kinds of observations:
+There are four kinds of observations:
 
 - ``planes`` is ``[types][rows][columns]``, uint8, with 1 in each cell that contains a sprite of the type.
   ``env.unwrapped.planes`` lists the types.
 - ``symbols`` is ``[rows][columns]``, uint8, with the ASCII character of the uppermost sprite.
   ``env.unwrapped.game.symbols`` lists the characters.
 - ``rgb`` is ``[rows × cell][columns × cell][3]``, uint8, drawn by the renderer of the suite.
+- ``full`` is a dictionary of ``planes`` and ``status``. ``status`` is a float32 vector with what planes do not show: the
+  facing and health of the avatar, the ticks left, and the amounts of held resources. ``env.unwrapped.status_names``
+  lists its numbers. The ticks left count down to the end of the episode, by the limit of the game or by ``max_steps``.
 
-If levels have different sizes, smaller levels are at the top left of the largest size. Action ``i`` is
-``game.actions[i]``. An action that is not available in a state does nothing. The reward is the change in score. With
-``reward="outcome"``, the reward is ±1 at the end of the episode.
+All boards have the size of the largest level of the game, whichever levels are played, or the ``size`` that is passed.
+Smaller levels are at the top left. Action ``i`` is ``game.actions[i]``. An action that is not available in a state
+does nothing. The reward is the change in score. With ``reward="outcome"``, the reward is ±1 at the end of the episode.
+
+If an environment has several levels, each episode draws its level from its seed. The level of one episode can be
+selected with ``reset(options={"level": 4})``, where 4 is the number of the level.
 
 ``reset(seed=s)`` derives the seed of the game's randomness from ``s`` by hashing. Each further ``reset()`` starts the
 next episode of ``s``. In a vector, ``reset(seed=[…])`` gives each environment its own seed, with which it plays the
@@ -26,11 +32,16 @@ same episodes as a single environment. If the seed is a single number, environme
 
 ``info["seed"]`` is the seed of the episode. To replay the episode, start its level with this seed (``Level.start``) and play
 its actions.
-``reset(options={"seed": "<64 hexadecimal digits>"})`` starts the same episode.
+``reset(options={"seed": "<64 hexadecimal digits>"})`` starts the same episode. If its level was selected, select the
+level again.
+
+Environments can be pickled and copied. A pickled environment consists of texts, seeds and actions, and is restored by
+playing the current episodes again.
 """
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, SupportsFloat
@@ -43,80 +54,15 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from . import _native
-from .games import Game, Level, State, load
+from ._arguments import did_you_mean, seed_text
+from ._lanes import Board, EpisodeLanes, Kind, Levels, Reward
+from .games import Game, State, corpus
 
 __all__ = ["GameEnv", "GameVectorEnv", "register"]
 
 ENV_ID = "InfiniteArcade/Game-v0"
 
-#: The autoreset modes of vectors, and their names in the extension.
-_MODES = {
-    AutoresetMode.NEXT_STEP: "next-step",
-    AutoresetMode.SAME_STEP: "same-step",
-    AutoresetMode.DISABLED: "disabled",
-}
-
-Board = NDArray[np.uint8]
-
-
-class _Lanes:
-    """Lanes, with the buffers that they write to."""
-
-    def __init__(
-        self,
-        game: str | Path | Game,
-        level: int | Sequence[int] | None,
-        count: int,
-        *,
-        observation: str,
-        cell: int,
-        max_steps: int | None,
-        reward: str,
-        mode: AutoresetMode,
-        threads: int,
-    ) -> None:
-        if reward not in ("score", "outcome"):
-            raise ValueError(f"there is no reward `{reward}`; choose score or outcome")
-        self.game = game if isinstance(game, Game) else load(game)
-        self.levels = _chosen(self.game, level)
-        self.by_outcome = reward == "outcome"
-        self.native = _native.Lanes(
-            [level._native for level in self.levels],
-            count,
-            observation=observation,
-            cell=cell,
-            max_steps=self.game.time_limit if max_steps is None else max_steps,
-            autoreset=_MODES[mode],
-            threads=threads,
-        )
-        self.shape = tuple(self.native.shape)
-        self.observations: Board = np.zeros((count, *self.shape), np.uint8)
-        self.flat = self.observations.reshape(-1)
-        self.rewards = np.zeros(count, np.float64)
-        self.terminated = np.zeros(count, np.bool_)
-        self.truncated = np.zeros(count, np.bool_)
-        same_step = mode == AutoresetMode.SAME_STEP
-        self.last: Board | None = np.zeros_like(self.observations) if same_step else None
-        self.flat_last = None if self.last is None else self.last.reshape(-1)
-
-    def space(self, observation: str) -> gymnasium.Space[Board]:
-        high = 1 if observation == "planes" else 255
-        space: gymnasium.Space[Any] = spaces.Box(0, high, self.shape, np.uint8)
-        return space
-
-    def step(self, actions: NDArray[np.int64]) -> int:
-        return self.native.step(
-            actions, self.flat, self.rewards, self.terminated, self.truncated, self.flat_last
-        )
-
-    def outcome_rewards(self, outcomes: Sequence[str]) -> NDArray[np.float64]:
-        values = {"won": 1.0, "lost": -1.0}
-        ended = (values.get(outcome, 0.0) for outcome in outcomes)
-        return np.where(self.terminated, np.fromiter(ended, np.float64, len(outcomes)), 0.0)
-
-
-class GameEnv(gymnasium.Env[Board, np.int64]):
+class GameEnv(gymnasium.Env[Any, np.int64]):
     """A game as a Gymnasium environment.
 
     ``info`` contains ``seed``, ``level``, ``score`` and ``outcome``.
@@ -127,21 +73,24 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
     def __init__(
         self,
         game: str | Path | Game,
-        level: int | Sequence[int] | None = 0,
+        level: Levels = None,
         *,
-        observation: str = "planes",
+        observation: Kind = "planes",
+        size: tuple[int, int] | None = None,
         cell: int = 8,
         max_steps: int | None = None,
-        reward: str = "score",
+        reward: Reward = "score",
         render_mode: str | None = None,
     ) -> None:
         """Creates an environment.
 
         Args:
             game: a game, or an argument for :func:`infinite_arcade.load`.
-            level: one level, several levels, or None for all levels. :meth:`reset` with ``options={"level": i}``
-                selects the ``i``-th of them.
-            observation: ``planes``, ``symbols`` or ``rgb``.
+            level: the numbers of one level or several levels, or None for all levels. Each episode draws its level
+                from its seed. :meth:`reset` with ``options={"level": 4}`` selects level 4 for one episode.
+            observation: ``planes``, ``symbols``, ``rgb`` or ``full``.
+            size: the number of columns and the number of rows of observed boards; by default those of the largest
+                level of the game.
             cell: the size of a cell in images, in pixels.
             max_steps: the number of steps after which an episode is truncated; by default the limit of the game.
             reward: ``score`` or ``outcome``.
@@ -151,11 +100,12 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
             VgdlError: if the game has problems.
             ValueError: if an argument is invalid.
         """
-        self._lanes = _Lanes(
+        self._lanes = EpisodeLanes(
             game,
             level,
             1,
             observation=observation,
+            size=size,
             cell=cell,
             max_steps=max_steps,
             reward=reward,
@@ -176,6 +126,11 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         return self._lanes.native.planes
 
     @property
+    def status_names(self) -> list[str]:
+        """The names of the numbers in the ``status`` of full observations."""
+        return self._lanes.native.status_names
+
+    @property
     def state(self) -> State:
         """Returns a copy of the current state, which includes the game's true random future. The copy is for tests
         and planners, and must not be shown to agents.
@@ -184,36 +139,41 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Board, dict[str, Any]]:
-        """Starts an episode. In ``options``, ``level`` is an index into the levels of the environment, and ``seed``
-        is the seed of the episode itself.
+    ) -> tuple[Any, dict[str, Any]]:
+        """Starts an episode. In ``options``, ``level`` is the number of the episode's level, and ``seed`` is the seed
+        of the episode itself.
+
+        Raises:
+            ValueError: if there is no such option, or the environment does not have the level.
         """
+        options = _checked(options, ("level", "seed"))
         super().reset(seed=seed)
-        options = options or {}
         native = self._lanes.native
         if "level" in options:
-            native.choose(0, int(options["level"]))
+            self._lanes.select(0, operator.index(options["level"]))
         if seed is not None or not self._is_seeded:
             native.seed(0, _text_of(seed if seed is not None else self.np_random_seed), False)
             self._is_seeded = True
         exact = "seed" in options
         if exact:
-            native.seed(0, str(options["seed"]), True)
+            native.seed(0, seed_text(options["seed"]), True)
         native.reset(np.ones(1, np.bool_), self._lanes.flat, exact)
         self._lanes.terminated[0] = self._lanes.truncated[0] = False
         self._has_started = True
         return self._observation(), self._info()
 
-    def step(self, action: np.int64 | int) -> tuple[Board, SupportsFloat, bool, bool, dict[str, Any]]:
+    def step(self, action: np.int64 | int) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
         """Plays one tick with an action.
 
         Raises:
             gymnasium.error.ResetNeeded: if the episode is over, or no episode was started.
+            TypeError: if the action is not an integer.
+            ValueError: if there is no such action.
         """
         lanes = self._lanes
         if not self._has_started or lanes.terminated[0] or lanes.truncated[0]:
             self._refuse()
-        lanes.step(np.array([action], np.int64))
+        lanes.step(np.array([operator.index(action)], np.int64))
         reward = float(lanes.rewards[0])
         if lanes.by_outcome:
             reward = float(lanes.outcome_rewards(lanes.native.outcomes)[0])
@@ -224,7 +184,7 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         """Returns the current board as pixels or as text."""
         match self.render_mode:
             case "rgb_array":
-                return self.state.rgb(self._cell)
+                return self._lanes.frame(0, self._cell)
             case "ansi":
                 return self.state.full_text()
             case _:
@@ -233,9 +193,11 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
     def _refuse(self) -> None:
         raise gymnasium.error.ResetNeeded("the episode is over, or no episode has been started: call reset()")
 
-    def _observation(self) -> Board:
-        copy: Board = self._lanes.observations[0].copy()
-        return copy
+    def _observation(self) -> Any:
+        observed = self._lanes.observed()
+        if isinstance(observed, dict):
+            return {name: values[0].copy() for name, values in observed.items()}
+        return observed[0].copy()
 
     def _info(self) -> dict[str, Any]:
         native = self._lanes.native
@@ -248,15 +210,15 @@ class GameEnv(gymnasium.Env[Board, np.int64]):
         }
 
 
-class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
+class GameVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
     """Many episodes of a game, stepped together without holding the interpreter lock.
 
-    Environment ``i`` plays level ``i % len(levels)``. Observations, rewards and flags are written into arrays that
+    Each episode draws its level from its seed. Observations, rewards and flags are written into arrays that
     are allocated once. With ``copy=False``, these arrays are returned directly. They are read-only, and valid until
     the next step.
 
-    ``info`` is empty except for ``final_obs`` and ``final_info`` in same-step mode. :attr:`seeds`, :attr:`outcomes`,
-    :attr:`scores` and :attr:`hashes` describe the current states.
+    ``info`` is empty except for ``final_obs`` and ``final_info`` in same-step mode, because most steps do not need
+    it. :attr:`seeds`, :attr:`levels`, :attr:`outcomes`, :attr:`scores` and :attr:`hashes` describe the current states.
     """
 
     metadata: dict[str, Any]
@@ -264,14 +226,15 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
     def __init__(
         self,
         game: str | Path | Game,
-        level: int | Sequence[int] | None = None,
+        level: Levels = None,
         *,
         num_envs: int = 1,
-        observation: str = "planes",
+        observation: Kind = "planes",
+        size: tuple[int, int] | None = None,
         cell: int = 8,
         max_steps: int | None = None,
         max_episode_steps: int | None = None,
-        reward: str = "score",
+        reward: Reward = "score",
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         threads: int = 0,
         copy: bool = True,
@@ -281,15 +244,18 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
 
         Args:
             game: a game, or an argument for :func:`infinite_arcade.load`.
-            level: one level, several levels, or None for all levels.
+            level: the numbers of one level or several levels, or None for all levels.
             num_envs: the number of environments.
-            observation: ``planes``, ``symbols`` or ``rgb``.
+            observation: ``planes``, ``symbols``, ``rgb`` or ``full``.
+            size: the number of columns and the number of rows of observed boards; by default those of the largest
+                level of the game.
             cell: the size of a cell in images, in pixels.
             max_steps: the number of steps after which an episode is truncated; by default the limit of the game.
             max_episode_steps: the name of ``max_steps`` in :func:`gymnasium.make_vec`.
             reward: ``score`` or ``outcome``.
             autoreset_mode: when the next episode starts after one has finished.
-            threads: the number of threads, or 0 for all cores. It does not affect results.
+            threads: the maximum number of threads, or 0 for all cores. Fewer than 256 environments need one thread.
+                The number does not affect results.
             copy: return copies of observations.
             render_mode: ``rgb_array`` or ``ansi``.
 
@@ -301,11 +267,12 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         self.metadata = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20, "autoreset_mode": mode}
         self.render_mode = render_mode
         self.num_envs = num_envs
-        self._lanes = _Lanes(
+        self._lanes = EpisodeLanes(
             game,
             level,
             num_envs,
             observation=observation,
+            size=size,
             cell=cell,
             max_steps=max_episode_steps if max_steps is None else max_steps,
             reward=reward,
@@ -318,8 +285,6 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._mode, self._copy, self._cell = mode, copy, cell
-        self._shown = self._lanes.observations.view()
-        self._shown.flags.writeable = False
         self._is_seeded = self._has_started = False
 
     @property
@@ -328,13 +293,18 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         return self._lanes.native.planes
 
     @property
+    def status_names(self) -> list[str]:
+        """The names of the numbers in the ``status`` of full observations."""
+        return self._lanes.native.status_names
+
+    @property
     def seeds(self) -> list[str]:
         """The seeds of the environments' current episodes."""
         return self._lanes.native.seeds
 
     @property
     def levels(self) -> list[int]:
-        """The index of each environment's level."""
+        """The number of each environment's level."""
         return [self._lanes.levels[at].number for at in self._lanes.native.levels]
 
     @property
@@ -361,14 +331,16 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         *,
         seed: int | Sequence[int | None] | None = None,
         options: dict[str, Any] | None = None,
-    ) -> tuple[Board, dict[str, Any]]:
+    ) -> tuple[Any, dict[str, Any]]:
         """Starts an episode in every environment, or in the environments selected by ``options["reset_mask"]``.
-        ``options["seed"]`` holds the seeds of the episodes themselves, one per environment.
+        ``options["seed"]`` holds the seeds of the episodes themselves, one per environment. ``options["level"]`` holds
+        the numbers of their levels, one per environment, or a single number.
 
         Raises:
-            ValueError: unless there is exactly one mask entry and one seed per environment.
+            ValueError: if there is no such option, or the environment does not have a level, or unless there is exactly
+                one mask entry, one seed and one level per environment.
         """
-        options = options or {}
+        options = _checked(options, ("level", "seed", "reset_mask"))
         native, lanes = self._lanes.native, self._lanes
         mask = np.ones(self.num_envs, np.bool_)
         if "reset_mask" in options:
@@ -397,26 +369,34 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
                 raise ValueError(f"{len(options['seed'])} seeds were given for {self.num_envs} environments")
             for at, own in enumerate(options["seed"]):
                 if mask[at]:
-                    native.seed(at, str(own), True)
+                    native.seed(at, seed_text(own), True)
+        if "level" in options:
+            chosen = np.broadcast_to(np.asarray(options["level"]), self.num_envs)
+            for lane in np.flatnonzero(mask):
+                lanes.select(int(lane), operator.index(chosen[lane]))
         native.reset(mask, lanes.flat, exact)
         lanes.terminated[mask] = lanes.truncated[mask] = False
         return self._observations(), {}
 
     def step(
         self, actions: NDArray[np.int64]
-    ) -> tuple[Board, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+    ) -> tuple[Any, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Plays one tick in every environment.
 
         Raises:
             gymnasium.error.ResetNeeded: if no episode was started, or an episode is over and the environment does not
             reset itself (disabled mode).
-            ValueError: unless there is exactly one action per environment.
+            ValueError: unless there is exactly one integer per environment, and each is the index of an action.
         """
         lanes = self._lanes
         if not self._has_started:
             raise gymnasium.error.ResetNeeded("no episode has been started: call reset()")
         if self._mode == AutoresetMode.DISABLED and (lanes.terminated.any() or lanes.truncated.any()):
             raise gymnasium.error.ResetNeeded("episodes are over: call reset() with their `reset_mask`")
+        actions = np.asarray(actions)
+        if actions.shape != (self.num_envs,) or actions.dtype.kind not in "iu":
+            found = f"an array of {actions.dtype} with the shape {actions.shape}"
+            raise ValueError(f"`actions` must be {self.num_envs} integers, one per environment, not {found}")
         ended = lanes.step(np.ascontiguousarray(actions, np.int64))
         info: dict[str, Any] = {}
         if ended and lanes.last is not None:
@@ -427,17 +407,22 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         return self._observations(), rewards, lanes.terminated.copy(), lanes.truncated.copy(), info
 
     def render(self) -> tuple[Any, ...] | None:
-        """Returns the boards as pixels or as text."""
+        """Returns the boards as images, all of the same size, or as text."""
         match self.render_mode:
             case "rgb_array":
-                return tuple(self.state(at).rgb(self._cell) for at in range(self.num_envs))
+                return tuple(self._lanes.frame(at, self._cell) for at in range(self.num_envs))
             case "ansi":
                 return tuple(self.state(at).full_text() for at in range(self.num_envs))
             case _:
                 return None
 
-    def _observations(self) -> Board:
-        return self._lanes.observations.copy() if self._copy else self._shown
+    def _observations(self) -> Any:
+        observed = self._lanes.observed()
+        if not self._copy:
+            return observed
+        if isinstance(observed, dict):
+            return {name: values.copy() for name, values in observed.items()}
+        return observed.copy()
 
     def _final(self, last: Board) -> dict[str, Any]:
         over = self._lanes.terminated | self._lanes.truncated
@@ -445,8 +430,10 @@ class GameVectorEnv(VectorEnv[Board, NDArray[np.int64], NDArray[Any]]):
         scores = np.zeros(self.num_envs)
         outcomes = np.full(self.num_envs, None, dtype=object)
         for at in np.flatnonzero(over):
+            scores[at], outcomes[at], status = self._lanes.native.last(int(at))
             boards[at] = last[at].copy()
-            scores[at], outcomes[at] = self._lanes.native.last(int(at))
+            if self._lanes.status is not None:
+                boards[at] = {"planes": boards[at], "status": np.array(status, np.float32)}
         final = {"score": scores, "_score": over, "outcome": outcomes, "_outcome": over}
         return {"final_obs": boards, "_final_obs": over, "final_info": final, "_final_info": over}
 
@@ -462,24 +449,31 @@ def _text_of(seed: int | None) -> str:
     return str(seed)
 
 
-def _chosen(game: Game, level: int | Sequence[int] | None) -> list[Level]:
-    numbers = range(len(game.levels)) if level is None else [level] if isinstance(level, int) else level
-    chosen = [found for number in numbers for found in game.levels if found.number == number]
-    if not chosen or len(chosen) != len(list(numbers)):
-        there = [found.number for found in game.levels]
-        raise ValueError(f"{game.id} has the levels {there}, not {list(numbers)}")
-    return chosen
+def _checked(options: dict[str, Any] | None, known: Sequence[str]) -> dict[str, Any]:
+    for name in options or {}:
+        if name not in known:
+            hint = did_you_mean(name, known) or f"; the options are {', '.join(known)}"
+            raise ValueError(f"there is no option `{name}`{hint}")
+    return options or {}
 
 
 def register() -> None:
-    """Registers ``InfiniteArcade/Game-v0``, unless it is already registered."""
-    if ENV_ID not in gymnasium.registry:
-        gymnasium.register(
-            ENV_ID,
-            entry_point="infinite_arcade.gymnasium:GameEnv",
-            vector_entry_point="infinite_arcade.gymnasium:GameVectorEnv",
-            disable_env_checker=False,
-        )
+    """Registers ``InfiniteArcade/Game-v0`` and the corpus games, such as ``InfiniteArcade/Hailglass-v0``. Does nothing
+    if they are already registered.
+    """
+    ids: dict[str, dict[str, Any]] = {ENV_ID: {}}
+    for name in corpus():
+        words = "".join(word.capitalize() for word in name.split("-"))
+        ids[f"InfiniteArcade/{words}-v0"] = {"game": name}
+    for id, arguments in ids.items():
+        if id not in gymnasium.registry:
+            gymnasium.register(
+                id,
+                entry_point="infinite_arcade.gymnasium:GameEnv",
+                vector_entry_point="infinite_arcade.gymnasium:GameVectorEnv",
+                disable_env_checker=False,
+                kwargs=arguments,
+            )
 
 
 register()

@@ -5,12 +5,17 @@ A sample is a level, and its ID is the digest of the level. On the track ``disco
 and its ID is the digest of the last level. An epoch is a run. The suite plays the episodes itself, with the prompts,
 the answer parser and the logs of ``arcade evaluate``. Inspect obtains the answers, with its limits, retries and
 caches. Episodes with the same ``seed``, level and run have the same randomness as in ``arcade evaluate``, so that the
-results of both can be paired.
+results of both can be paired. The input of a sample is the first request of its first episode, with the rules and the
+board. A solver other than :func:`play` receives this input.
 
 The log of each episode is stored in the sample's store. The scorers replay each log, and compare every state hash,
 score and outcome. They reject a log that differs from the replay or belongs to a different episode. With
 ``journal=DIR``, logs are written to that folder during the episodes. A retried evaluation continues these logs, so
 that no answer is requested twice.
+
+A limit of Inspect, such as ``--token-limit``, can end an episode before the game does. Such an episode is not won, and
+its score is the score so far. Every sample therefore counts in every mean. The scorer ``unfinished`` reports the number
+and the fraction of samples with such an episode.
 """
 
 from __future__ import annotations
@@ -18,7 +23,7 @@ from __future__ import annotations
 import hashlib
 import json
 from base64 import b64encode
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -40,23 +45,35 @@ from inspect_ai.model import (
     get_model,
     modelapi,
 )
-from inspect_ai.scorer import Score, Scorer, Target, mean, scorer, stderr
+from inspect_ai.scorer import Metric, SampleScore, Score, Scorer, Target, mean, metric, scorer, stderr
 from inspect_ai.solver import Generate, Solver, TaskState, generate, solver
 from inspect_ai.tool import ToolChoice, ToolInfo
 from inspect_ai.util import LimitExceededError
 
 from . import _native
+from ._arguments import Seed, at_least, check_games, check_levels, seed_text
 from ._native import ArcadeError, LogError, __version__
 from .games import Game, corpus as corpus_games, load
 from .questions import Questions, is_right
 from .snapshots import open_snapshot
 
 __all__ = [
-    "corpus", "game", "play", "points", "questions", "right", "samples", "scripted", "snapshot", "starter", "win",
+    "corpus", "game", "play", "points", "questions", "right", "samples", "scripted", "snapshot", "starter",
+    "unfinished", "win",
 ]
+
+#: Names or numbers, as a list or as text with commas. Inspect passes ``-T games=a,b`` as a list of texts.
+Names = str | list[str] | None
+Numbers = int | str | list[int] | list[str] | None
+
+#: A function that answers a request.
+Answer = Callable[[list[ChatMessage]], Awaitable[ModelOutput]]
 
 #: The name under which a sample's logs are stored.
 LOGS = "infinite_arcade_logs"
+
+#: The results of an episode without a log.
+_UNPLAYED = {"actions": [], "outcome": "ongoing", "score": 0.0, "steps": 0, "ended": False, "stopped_by": None}
 
 #: The reasons why an answer ended, with their names in logs.
 _FINISHES = {
@@ -70,13 +87,13 @@ _FINISHES = {
 @task
 def snapshot(
     path: str,
-    games: str | list[str] | None = None,
-    levels: int | list[int] | None = None,
+    games: Names = None,
+    levels: Numbers = None,
     track: str | None = None,
     commit: int | str = 1,
     mode: str | None = None,
     max_steps: int = 1000,
-    seed: str = "evaluate",
+    seed: Seed = "evaluate",
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
@@ -90,16 +107,20 @@ def snapshot(
         commit: the number of actions that the player commits to per decision, or ``all`` for the whole episode.
         mode: ``zero-shot`` or ``contextual``.
         max_steps: the maximum number of actions per episode.
-        seed: the text from which the games' randomness is derived. The randomness is the same for every player.
+        seed: the text or integer from which the games' randomness is derived. The randomness is the same for every
+            player.
         reasks: the number of repeated requests after an answer without a usable action.
         journal: a folder for the logs of episodes, which retries continue.
+
+    Raises:
+        ValueError: if a game or level does not exist, or another argument is invalid.
     """
-    release = open_snapshot(path)
-    found = (found.compile() for found in release.games())
+    release, wanted = open_snapshot(path), _listed(games)
+    there = {found.id: found for found in release.games()}
+    check_games(wanted, there, str(path))
+    found = [found.compile() for id, found in there.items() if wanted is None or id in wanted]
     options = _options(track, commit, mode, max_steps, seed, reasks)
-    return _task(
-        found, games, levels, options, journal, {"snapshot": release.root, "release": release.name}
-    )
+    return _task(found, levels, options, journal, {"snapshot": release.root, "release": release.name})
 
 
 @task
@@ -114,13 +135,13 @@ def starter(path: str = "releases/starter", **options: Any) -> Task:
 
 @task
 def corpus(
-    games: str | list[str] | None = None,
-    levels: int | list[int] | None = None,
+    games: Names = None,
+    levels: Numbers = None,
     track: str | None = None,
     commit: int | str = 1,
     mode: str | None = None,
     max_steps: int = 1000,
-    seed: str = "evaluate",
+    seed: Seed = "evaluate",
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
@@ -128,20 +149,21 @@ def corpus(
     :func:`snapshot`.
     """
     wanted = _listed(games)
-    found = (entry.compile() for name, entry in corpus_games().items() if wanted is None or name in wanted)
+    check_games(wanted, corpus_games(), "the corpus")
+    found = [entry.compile() for name, entry in corpus_games().items() if wanted is None or name in wanted]
     options = _options(track, commit, mode, max_steps, seed, reasks)
-    return _task(found, games, levels, options, journal, {})
+    return _task(found, levels, options, journal, {})
 
 
 @task
 def game(
     path: str,
-    levels: int | list[int] | None = None,
+    levels: Numbers = None,
     track: str | None = None,
     commit: int | str = 1,
     mode: str | None = None,
     max_steps: int = 1000,
-    seed: str = "evaluate",
+    seed: Seed = "evaluate",
     reasks: int = 1,
     journal: str | None = None,
 ) -> Task:
@@ -149,7 +171,7 @@ def game(
     those of :func:`snapshot`.
     """
     options = _options(track, commit, mode, max_steps, seed, reasks)
-    return _task([load(path)], None, levels, options, journal, {})
+    return _task([load(path)], levels, options, journal, {})
 
 
 @task
@@ -196,18 +218,15 @@ def right() -> Scorer:
 def samples(
     games: Iterable[Game],
     *,
-    games_wanted: Sequence[str] | None = None,
     levels_wanted: Sequence[int] | None = None,
     options: dict[str, Any] | None = None,
 ) -> Iterator[Sample]:
     """Returns the samples of the given games. Each sample contains the texts of its game and levels, so that its log
-    can be replayed without the release.
+    can be replayed without the release. Its input is the first request of its first episode.
     """
     options = options or _options(None, 1, None, 1000, "evaluate", 1)
     ids = set[str]()
     for own in games:
-        if games_wanted is not None and own.id not in games_wanted:
-            continue
         levels = [level for level in own.levels if levels_wanted is None or level.number in levels_wanted]
         texts = [(level.number, level.text, level.optimal_ticks) for level in levels]
         by_number = {level.number: level for level in levels}
@@ -215,55 +234,47 @@ def samples(
             digest = by_number[numbers[-1]].digest
             id = digest if digest not in ids else f"{digest}-{own.id}"
             ids.add(id)
-            shown = ", ".join(map(str, numbers))
-            yield Sample(
-                id=id,
-                input=f"Play {own.title} ({own.id}), level {shown}.",
-                target="win",
-                metadata={
-                    "game": own.id,
-                    "title": own.title,
-                    "game_digest": own.digest,
-                    "source": own.source,
-                    "as_reference": own._native.as_reference,
-                    "level_texts": texts,
-                    "level_digests": [by_number[number].digest for number in numbers],
-                    "levels": numbers,
-                    "group": group,
-                    **options,
-                },
-            )
+            metadata = {
+                "game": own.id,
+                "title": own.title,
+                "game_digest": own.digest,
+                "source": own.source,
+                "as_reference": own._native.as_reference,
+                "level_texts": texts,
+                "level_digests": [by_number[number].digest for number in numbers],
+                "levels": numbers,
+                "group": group,
+                **options,
+            }
+            request = _series(own._native, metadata, 0).next_request()
+            if request is None:
+                raise ArcadeError(f"{own.id}, level {numbers[0]}: the game ends before the first action")
+            input = [_message(*message) for message in request]
+            yield Sample(id=id, input=input, target="win", metadata=metadata)
 
 
 @solver
-def play(journal: str | None = None) -> Solver:
-    """Plays the episodes of a sample with the model, using the suite's prompts, answer parser and logs."""
+def play(journal: str | None = None, answer: Answer | None = None) -> Solver:
+    """Plays the episodes of a sample with the model, using the suite's prompts, answer parser and logs.
+
+    Args:
+        journal: a folder for the logs of episodes, which retries continue.
+        answer: an asynchronous function that answers a request, by default with one call of the model. An agent of your
+            own, with tools or several calls per action, is such a function.
+    """
 
     async def solve(state: TaskState, generate: Generate) -> TaskState:
-        options, model = state.metadata, get_model()
+        options, ask = state.metadata, answer or get_model().generate
         own = _game_of(options)
         folder = None if journal is None else Path(journal)
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
-        series = _native.Series(
-            own,
-            options["game"],
-            _texts_of(options),
-            group=options["group"],
-            run=state.epoch - 1,
-            seed=options["seed"],
-            max_steps=options["max_steps"],
-            commit=options["commit"],
-            track=options["track"],
-            prompts=options["prompts"],
-            reasks=options["reasks"],
-            folder=folder,
-        )
+        series = _series(own, options, state.epoch - 1, folder)
         try:
             while (request := await anyio.to_thread.run_sync(series.next_request)) is not None:
                 state.messages = [_message(*message) for message in request]
                 try:
-                    output = await model.generate(state.messages)
+                    output = await ask(state.messages)
                 except LimitExceededError as error:
                     series.fail(str(error), kind="budget")
                     raise
@@ -287,44 +298,64 @@ def play(journal: str | None = None) -> Solver:
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def win() -> Scorer:
-    """Scores the fraction of levels won, by replaying the logs. Practice levels do not count. Standard
-    errors are clustered by game.
+    """Scores the fraction of levels won, by replaying the logs. A level whose episode is unfinished is not won.
+    Practice levels do not count. Standard errors are clustered by game.
     """
 
     async def score(state: TaskState, target: Target) -> Score:
         played = _replayed(state)
         counted = [one for one in played if not one["practice"]]
-        if not counted or any(not one["ended"] for one in counted):
-            return Score.unscored(reason="episode_open", explanation="the episode was not played to its end")
-        won = sum(one["outcome"] == "won" for one in counted)
+        won = sum(one["outcome"] == "won" for one in counted if one["ended"])
         return Score(
             value=won / len(counted),
-            answer=", ".join(one["outcome"] for one in counted),
-            explanation="; ".join(
-                f"level {one['level']}: {one['outcome']} after {one['steps']} steps with score {one['score']}{_stop(one)}"
-                for one in counted
-            ),
+            answer=", ".join(one["outcome"] if one["ended"] else "unfinished" for one in counted),
+            explanation="; ".join(map(_explained, counted)),
             metadata={"episodes": played},
         )
 
     return score
 
 
-def _stop(episode: dict[str, Any]) -> str:
-    """Returns the engine's reason for stopping an episode. Such an episode reveals nothing about the model."""
+def _explained(episode: dict[str, Any]) -> str:
+    """Describes an episode in one line. If the engine stopped it, the episode reveals nothing about the model."""
+    level, steps, score = episode["level"], episode["steps"], episode["score"]
+    if not episode["ended"]:
+        return f"level {level}: unfinished after {steps} steps with score {score}, so not won"
     reason = episode["stopped_by"]
-    return "" if reason is None else f" (stopped by the engine: {reason})"
+    stop = "" if reason is None else f" (stopped by the engine: {reason})"
+    return f"level {level}: {episode['outcome']} after {steps} steps with score {score}{stop}"
 
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def points() -> Scorer:
-    """Scores the mean score of the games, by replaying the logs."""
+    """Scores the mean score of the games, by replaying the logs. An unfinished episode has the score so far."""
 
     async def score(state: TaskState, target: Target) -> Score:
         counted = [one for one in _replayed(state) if not one["practice"]]
-        if not counted or any(not one["ended"] for one in counted):
-            return Score.unscored(reason="episode_open", explanation="the episode was not played to its end")
         return Score(value=sum(float(one["score"]) for one in counted) / len(counted))
+
+    return score
+
+
+@metric
+def count() -> Metric:
+    """The sum of the values. With several epochs, the value of a sample is its mean over the epochs."""
+
+    def total(scores: list[SampleScore]) -> float:
+        return sum(one.score.as_float() for one in scores)
+
+    return total
+
+
+@scorer(metrics=[count(), mean()])
+def unfinished() -> Scorer:
+    """Scores 1 if an episode of the sample is unfinished, and 0 otherwise. Limits and solvers of your own leave
+    episodes unfinished.
+    """
+
+    async def score(state: TaskState, target: Target) -> Score:
+        counted = [one for one in _replayed(state) if not one["practice"]]
+        return Score(value=float(any(not one["ended"] for one in counted)))
 
     return score
 
@@ -351,46 +382,77 @@ class _Scripted(ModelAPI):
 
 
 def _task(
-    games: Iterable[Game],
-    games_wanted: str | list[str] | None,
-    levels_wanted: int | list[int] | None,
+    games: list[Game],
+    levels_wanted: Numbers,
     options: dict[str, Any],
     journal: str | None,
     facts: dict[str, Any],
 ) -> Task:
-    levels = [levels_wanted] if isinstance(levels_wanted, int) else levels_wanted
-    found = list(samples(games, games_wanted=_listed(games_wanted), levels_wanted=levels, options=options))
+    levels = _numbered(levels_wanted)
+    check_levels(levels, (level.number for own in games for level in own.levels))
+    found = list(samples(games, levels_wanted=levels, options=options))
     if not found:
-        raise ValueError("there is no such game or level to play")
+        raise ValueError("there is no level to play: the selection of games or levels is empty")
     return Task(
         dataset=MemoryDataset(found, name="infinite-arcade"),
         solver=play(journal),
-        scorer=[win(), points()],
+        scorer=[win(), points(), unfinished()],
         version=__version__,
         metadata={"semantics": _native.SEMANTICS, "suite": __version__, **facts, **options},
     )
 
 
 def _options(
-    track: str | None, commit: int | str, mode: str | None, max_steps: int, seed: str, reasks: int
+    track: str | None, commit: int | str, mode: str | None, max_steps: int, seed: Seed, reasks: int
 ) -> dict[str, Any]:
     if mode not in (None, "zero-shot", "contextual"):
         raise ValueError(f"there is no mode `{mode}`; choose zero-shot or contextual")
     if mode is not None and track is not None:
         raise ValueError("`mode` contradicts `track`, which sets it; leave out one of the two")
+    at_least(1, max_steps=max_steps)
+    at_least(0, reasks=reasks)
     prompts = None if mode is None else json.dumps({"mode": mode})
     return {
         "track": track,
         "commit": str(commit),
         "prompts": prompts,
         "max_steps": max_steps,
-        "seed": seed,
+        "seed": seed_text(seed),
         "reasks": reasks,
     }
 
 
-def _listed(names: str | list[str] | None) -> list[str] | None:
+def _listed(names: Names) -> list[str] | None:
     return names.split(",") if isinstance(names, str) else names
+
+
+def _numbered(numbers: Numbers) -> list[int] | None:
+    if numbers is None:
+        return None
+    parts = numbers.split(",") if isinstance(numbers, str) else numbers if isinstance(numbers, list) else [numbers]
+    try:
+        return [int(part) for part in parts]
+    except ValueError:
+        raise ValueError(f"`levels` must be numbers, such as 0,1, not {numbers!r}") from None
+
+
+def _series(
+    own: _native.Game, options: dict[str, Any], run: int, folder: Path | None = None
+) -> _native.Series:
+    return _native.Series(
+        own,
+        options["game"],
+        _texts_of(options),
+        group=options["group"],
+        run=run,
+        seed=options["seed"],
+        max_steps=options["max_steps"],
+        commit=options["commit"],
+        track=options["track"],
+        prompts=options["prompts"],
+        reasks=options["reasks"],
+        folder=folder,
+    )
 
 
 def _game_of(options: dict[str, Any]) -> _native.Game:
@@ -439,7 +501,8 @@ def _logs(series: _native.Series) -> list[dict[str, Any]]:
 
 
 def _replayed(state: TaskState) -> list[dict[str, Any]]:
-    """Returns the results of a sample's logs, each of which is replayed on its game.
+    """Returns the results of a sample's logs, each of which is replayed on its game. A level without a log is an
+    unfinished episode without steps.
 
     Raises:
         LogError: if a log differs from its replay, or belongs to a different episode.
@@ -468,4 +531,6 @@ def _replayed(state: TaskState) -> list[dict[str, Any]]:
         metrics = json.loads(_native.metrics_of_log(own, options["game"], _texts_of(options), log["log"]))
         practice = bool(log["practice"])
         replayed.append({"level": log["level"], "practice": practice, **found, "metrics": metrics})
+    for level in options["levels"][len(levels) :]:
+        replayed.append({"level": level, "practice": False, **_UNPLAYED})
     return replayed

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from . import _native
+from ._arguments import Seed, at_least, seed_text
 from .games import Level, State
 
 __all__ = ["PLANNERS", "Planner", "play"]
@@ -13,28 +16,36 @@ PLANNERS: list[str] = _native.planner_names()
 
 class Planner:
     """A planner with its own random streams, such as ``mcts`` or ``olets:500``. The number in the name is the number
-    of forward-model calls per decision.
+    of forward-model calls per decision. A pickled or copied planner continues like the original.
     """
 
     __slots__ = ("_native",)
 
-    def __init__(self, name: str, *, seed: str, budget: int = 1000) -> None:
+    def __init__(self, name: str, *, seed: Seed, budget: int = 1000) -> None:
         """Creates a planner.
 
         Args:
             name: one of :data:`PLANNERS`, with or without ``:CALLS``.
-            seed: the text from which the random streams are derived.
+            seed: the text or integer from which the random streams are derived.
             budget: the number of forward-model calls per decision, used if the name contains no number.
 
         Raises:
-            ValueError: if there is no such planner.
+            ValueError: if there is no such planner, or the budget is less than 1 call.
         """
-        self._native = _native.Planner(name, seed=seed, budget=budget)
+        at_least(1, budget=budget)
+        self._native = _native.Planner(name, seed=seed_text(seed), budget=budget)
+
+    def __reduce__(self) -> Any:
+        return _planner_of, (self._native.save(),)
 
     def plan(self, state: State, count: int = 1) -> tuple[list[str], int]:
         """Returns the next actions, and their cost in forward-model calls. Releases the interpreter's lock while
         planning.
+
+        Raises:
+            ValueError: if ``count`` is less than 1.
         """
+        at_least(1, count=count)
         return self._native.plan(state._native, count)
 
     def act(self, state: State) -> str:
@@ -46,12 +57,19 @@ class Planner:
         return repr(self._native)
 
 
-def play(level: Level, planner: Planner, *, seed: str, max_steps: int | None = None) -> tuple[State, list[str]]:
+def play(level: Level, planner: Planner, *, seed: Seed, max_steps: int | None = None) -> tuple[State, list[str]]:
     """Plays an episode with a planner. Returns its last state and its actions. ``seed`` determines the game's
     randomness.
     """
+    at_least(0, max_steps=max_steps)
     state, actions = level.start(seed), list[str]()
     while not state.is_over and (max_steps is None or len(actions) < max_steps):
         actions.append(planner.act(state))
         state.step(actions[-1])
     return state, actions
+
+
+def _planner_of(saved: str) -> Planner:
+    planner = Planner.__new__(Planner)
+    planner._native = _native.Planner.load(saved)
+    return planner

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _native
+from ._arguments import at_least, did_you_mean
 from ._native import ArcadeError
 from .games import Game
 
@@ -33,7 +34,8 @@ class SnapshotGame:
         game = Game(path.read_text("utf-8"), name=str(path), id=self.id, title=str(self.card["title"]))
         for level in self.card["levels"]:
             file = self.folder / level["file"]
-            game.level(file.read_text("utf-8"), name=str(file), optimal_ticks=level.get("optimal_ticks"))
+            text, optimal = file.read_text("utf-8"), level.get("optimal_ticks")
+            game.levels.append(game.level(text, name=str(file), optimal_ticks=optimal))
         return game
 
     def witness(self, level: int) -> dict[str, Any] | None:
@@ -79,10 +81,12 @@ class Release:
         Raises:
             KeyError: if there is no such game.
         """
+        known = []
         for game in self.games():
             if game.id == id:
                 return game
-        raise KeyError(f"{self.path}: there is no game `{id}`")
+            known.append(game.id)
+        raise KeyError(f"{self.path}: there is no game `{id}`{did_you_mean(id, known)}")
 
 
 def open_snapshot(path: str | Path) -> Release:
@@ -146,6 +150,7 @@ def mint(
         FileNotFoundError: if there is no such recipe.
         ValueError: if ``shard`` does not have the form ``K/N``.
     """
+    at_least(1, jobs=jobs)
     made: dict[str, Any] = json.loads(
         _native.mint(
             recipe_text(recipe),
@@ -178,6 +183,7 @@ def merge(
     Raises:
         ArcadeError: if a shard is missing or has been altered, or the folder cannot be written.
     """
+    at_least(1, jobs=jobs)
     folders = [Path(shard) for shard in shards]
     made: dict[str, Any] = json.loads(_native.merge(folders, Path(out), secret=_path(secret), jobs=jobs))
     return made

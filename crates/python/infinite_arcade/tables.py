@@ -105,14 +105,17 @@ def games(release: Release) -> Table:
 
 def levels(release: Release) -> Table:
     """Returns a table of the levels of a release, based on their cards. The columns are ``game``, ``level``,
-    ``digest``, ``columns``, ``rows``, ``difficulty``, ``optimal_ticks`` and ``text``.
+    ``digest``, ``columns``, ``rows``, ``difficulty``, ``difficulty_asked``, ``optimal_ticks`` and ``text``.
+
+    ``difficulty`` is the label that the reference players measured, such as ``hard``, or None if the recipe does not
+    measure it. ``difficulty_asked`` is the difficulty for which the generator made the level, from 0 to 1.
     """
     rows = []
     for found in release.games():
         game = found.compile()
         for level, card in zip(game.levels, found.card["levels"], strict=True):
             columns, height = level.size
-            difficulty = card.get("difficulty")
+            ladder = card.get("ladder")
             rows.append(
                 {
                     "game": found.id,
@@ -120,12 +123,13 @@ def levels(release: Release) -> Table:
                     "digest": level.digest,
                     "columns": columns,
                     "rows": height,
-                    "difficulty": difficulty if isinstance(difficulty, str) else None,
+                    "difficulty": ladder["difficulty"] if ladder else None,
+                    "difficulty_asked": card.get("difficulty"),
                     "optimal_ticks": level.optimal_ticks,
                     "text": level.text,
                 }
             )
-    return _table(rows, {"optimal_ticks": pa.int64(), "difficulty": pa.string()})
+    return _table(rows, {"optimal_ticks": pa.int64(), "difficulty": pa.string(), "difficulty_asked": pa.float64()})
 
 
 def to_pandas(table: Table) -> Any:
@@ -167,5 +171,6 @@ def _subject(folder: Path, settings: dict[str, Any], id: str, known: dict[str, G
             text = (place / f"lvl{level['number']}.txt").read_text("utf-8")
             added = game.level(text, name=f"lvl{level['number']}.txt", optimal_ticks=level["optimal_ticks"])
             added.number = level["number"]
+            game.levels.append(added)
         known[id] = game
     return known[id]

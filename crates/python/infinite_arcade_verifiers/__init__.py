@@ -15,8 +15,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import verifiers.v1 as vf
+from verifiers.v1.task import task_key
 
 from infinite_arcade import LogError, _native, corpus, load, open_snapshot
+from infinite_arcade._arguments import check_games, check_levels, seed_text
 from infinite_arcade.games import Game
 
 __all__ = ["ArcadeConfig", "ArcadeData", "ArcadeEnv", "ArcadeEnvConfig", "ArcadeTask", "ArcadeTaskset"]
@@ -36,8 +38,8 @@ class ArcadeConfig(vf.TasksetConfig):
     """Only these levels, by number."""
     runs: int = 1
     """The number of episodes per level."""
-    seed: str = "evaluate"
-    """The text from which the games' randomness is derived."""
+    seed: str | int = "evaluate"
+    """The text or integer from which the games' randomness is derived."""
     max_steps: int = 200
     """The maximum number of actions per episode."""
     commit: str = "1"
@@ -56,11 +58,20 @@ class ArcadeData(vf.TaskData):
 class ArcadeTask(vf.Task[ArcadeData, vf.State, vf.TaskConfig]):
     """A task, which is a level to play."""
 
+    @property
+    def key(self) -> str:
+        """The identity of the task. Unlike verifiers' own key, it does not depend on the other tasks."""
+        return str(task_key(self.data.model_dump(mode="json", exclude_none=True, exclude={"idx"})))
+
 
 class ArcadeEnvConfig(vf.EnvConfig):
-    """The configuration of the environment, which has one player."""
+    """The configuration of the environment, which has one player. The player only answers, so it has no tools and runs
+    on this machine.
+    """
 
-    player: vf.AgentConfig = vf.AgentConfig()
+    player: vf.AgentConfig = vf.AgentConfig.model_validate(
+        {"harness": {"id": "null"}, "runtime": {"type": "subprocess"}}
+    )
 
 
 class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
@@ -96,10 +107,15 @@ class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
     """A taskset with the levels of a release, of a game or of the corpus."""
 
     def load(self) -> Iterator[ArcadeTask]:
+        """Yields the tasks.
+
+        Raises:
+            ValueError: if a game or level of the configuration does not exist.
+        """
         config = self.config
-        for game in _games(config.source):
-            if config.games is not None and game.id not in config.games:
-                continue
+        games = _games(config.source, config.games)
+        check_levels(config.levels, (level.number for game in games for level in game.levels))
+        for game in games:
             for level in game.levels:
                 if config.levels is not None and level.number not in config.levels:
                     continue
@@ -111,7 +127,7 @@ class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
                         "level_text": level.text,
                         "optimal_ticks": level.optimal_ticks,
                         "run": run,
-                        "seed": config.seed,
+                        "seed": seed_text(config.seed),
                         "max_steps": config.max_steps,
                         "commit": config.commit,
                         "reasks": config.reasks,
@@ -172,13 +188,16 @@ def _series(info: dict[str, Any]) -> _native.Series:
     )
 
 
-def _games(source: str) -> Iterator[Game]:
+def _games(source: str, wanted: list[str] | None) -> list[Game]:
     if source == "corpus":
-        yield from (found.compile() for found in corpus().values())
-        return
+        check_games(wanted, corpus(), "the corpus")
+        return [found.compile() for name, found in corpus().items() if wanted is None or name in wanted]
     try:
         release = open_snapshot(source)
     except _native.ArcadeError:
-        yield load(source)
-        return
-    yield from (found.compile() for found in release.games())
+        game = load(source)
+        check_games(wanted, [game.id], source)
+        return [game]
+    there = {found.id: found for found in release.games()}
+    check_games(wanted, there, source)
+    return [found.compile() for id, found in there.items() if wanted is None or id in wanted]

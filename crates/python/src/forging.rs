@@ -4,9 +4,10 @@
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
 use crate::game::{Game, Level};
+use crate::interrupt::interruptible;
 use base::{Digest, Seed};
 use engine::SpriteType;
-use forge::games::{GameOrder, MadeGame, invent_games, make_games};
+use forge::games::{GameOrder, MadeGame, invent_games, make_games, slug};
 use forge::levels::{LevelOrder, Method, make_levels};
 use generators::games::Kind;
 use generators::kernels;
@@ -25,11 +26,12 @@ type Size = ((usize, usize), (usize, usize));
 #[pyfunction]
 #[pyo3(signature = (level, *, budget, seed))]
 pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -> PyResult<String> {
-    let (game, level) = (&level.game.0.game, &level.level);
-    py.detach(|| {
+    let (level, seed) = (level.clone(), Seed::from_text(seed));
+    interruptible(py, move |_| {
+        let (game, level) = (&level.game.0.game, &level.level);
         let criteria = Criteria { budget, ..Criteria::full() };
         let panel = Panel::new(criteria.check().map_err(invalid)?, Effort::Calls(budget));
-        let seed = Seed::from_text(seed).child(&level.digest().to_string(), 0);
+        let seed = seed.child(&level.digest().to_string(), 0);
         let report = panel.judge(Judging::level(game, level, seed));
         let witness = report.witness.clone();
         let mut document = serde_json::to_value(&report).map_err(failed)?;
@@ -42,7 +44,7 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
 /// Generates levels for a game, like `arcade generate levels`. Returns the levels with their witnesses, and
 /// the cost.
 #[pyfunction]
-#[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, sprites = Vec::new()))]
+#[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, verified = false, sprites = Vec::new()))]
 #[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
 pub(crate) fn generate_levels(
     py: Python<'_>,
@@ -54,17 +56,22 @@ pub(crate) fn generate_levels(
     difficulty: Option<&str>,
     size: Option<Size>,
     min_solution: Option<usize>,
+    verified: bool,
     sprites: Vec<(String, usize)>,
 ) -> PyResult<String> {
-    let examples: Vec<engine::Level> = examples.iter().map(|level| level.get().level.clone()).collect();
-    let game = &game.0.game;
+    let examples: Vec<engine::Level> =
+        examples.iter().map(|level| level.get().level.as_ref().clone()).collect();
+    let (game, seed) = (game.clone(), Seed::from_text(seed));
     let method: Method = method.parse().map_err(invalid)?;
     let difficulty = difficulty.map(str::parse).transpose().map_err(invalid)?;
-    let stype = |name: &String| -> PyResult<SpriteType> {
-        let found = game.sprite_type(name);
-        found.ok_or_else(|| invalid(format_args!("the game has no sprite type `{name}`")))
-    };
-    py.detach(|| {
+    // Levels are judged if an order has to be measured, and every judged win lasts at least one tick.
+    let min_solution = min_solution.or(verified.then_some(1));
+    interruptible(py, move |interrupt| {
+        let game = &game.0.game;
+        let stype = |name: &String| -> PyResult<SpriteType> {
+            let found = game.sprite_type(name);
+            found.ok_or_else(|| invalid(format_args!("the game has no sprite type `{name}`")))
+        };
         let config = Examples::of(game, &examples)
             .map_or_else(LevelConfig::default, |examples| LevelConfig::like(Arc::new(examples)));
         let config = match size {
@@ -78,8 +85,7 @@ pub(crate) fn generate_levels(
             min_solution,
             ..LevelOrder::new(method, count, LevelConfig { counts, ..config })
         };
-        let seed = Seed::from_text(seed).child(method.name(), 0);
-        let set = make_levels(game, &order, seed, &()).map_err(failed)?;
+        let set = make_levels(game, &order, seed.child(method.name(), 0), interrupt).map_err(failed)?;
         let level = |made: &forge::levels::MadeLevel| {
             let witness = made.report.as_ref().and_then(|report| report.witness.as_ref());
             json!({
@@ -87,6 +93,7 @@ pub(crate) fn generate_levels(
                 "text": made.level.to_string(),
                 "digest": made.level.digest(),
                 "witness": witness,
+                "verified": made.report.is_some(),
                 "difficulty": made.ladder.as_ref().map(|ladder| ladder.difficulty),
                 "report": made.report,
             })
@@ -121,25 +128,34 @@ pub(crate) fn generate_games(
              or the kinds"
         )));
     }
-    py.detach(|| {
+    let seed = Seed::from_text(seed).child(method.name(), 0);
+    interruptible(py, move |interrupt| {
         let known = corpus().into_iter().map(|(_, source, ..)| engine::Game::from_source(&source));
         let known: Vec<GameForm> = known.flatten().map(|game| GameForm::of(&game)).collect();
-        let seed = Seed::from_text(seed).child(method.name(), 0);
         let canary = snapshots::canary(&Digest::of(seed.child("canary", 0).to_string().as_bytes()));
         let set = match kinds.is_empty() {
             true => {
                 let order = GameOrder::of_inventions(method, count).with_levels(levels);
-                invent_games(&order, &known, &canary, seed, &())
+                invent_games(&order, &known, &canary, seed, interrupt)
             }
             false => {
                 let order = GameOrder { kinds, ..GameOrder::new(count) }.with_levels(levels);
-                make_games(&order, &known, &canary, seed, &())
+                make_games(&order, &known, &canary, seed, interrupt)
             }
         };
         let set = set.map_err(failed)?;
         let game = |made: &MadeGame| {
             let levels: Vec<String> = made.levels.iter().map(|found| found.level.to_string()).collect();
-            json!({ "source": made.text, "levels": levels, "card": made.card, "witnesses": made.witnesses })
+            let title = &made.card.title;
+            let id = format!("{}-{}", slug(title), made.game.digest().short());
+            json!({
+                "id": id,
+                "title": title,
+                "source": made.text,
+                "levels": levels,
+                "card": made.card,
+                "witnesses": made.witnesses,
+            })
         };
         let games: Vec<Value> = set.games.iter().map(game).collect();
         serde_json::to_string(&json!({ "games": games })).map_err(failed)
@@ -150,7 +166,7 @@ pub(crate) fn generate_games(
 /// every witness.
 #[pyfunction]
 pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    let verification = py.detach(|| verify_within(&path, &Bounds::RELEASE)).map_err(failed)?;
+    let verification = interruptible(py, move |_| verify_within(&path, &Bounds::RELEASE).map_err(failed))?;
     serde_json::to_string(&verification).map_err(failed)
 }
 

@@ -31,12 +31,13 @@ pub(crate) struct Rules {
 #[derive(Clone)]
 pub(crate) struct Game(pub(crate) Arc<Rules>);
 
-/// A level of a specific game.
+/// A level of a specific game. A clone shares the game and the level.
 #[pyclass(frozen, module = "infinite_arcade")]
+#[derive(Clone)]
 pub(crate) struct Level {
     pub(crate) game: Game,
-    pub(crate) name: String,
-    pub(crate) level: engine::Level,
+    pub(crate) name: Arc<str>,
+    pub(crate) level: Arc<engine::Level>,
 }
 
 /// Parses an action from its name.
@@ -54,14 +55,17 @@ pub(crate) fn seed_of(text: &str) -> Seed {
     text.parse().unwrap_or_else(|_| Seed::from_text(text))
 }
 
+/// The names of the outcomes.
+pub(crate) const OUTCOMES: [&str; 5] = ["ongoing", "won", "lost", "ended", "stopped"];
+
 /// Returns an outcome's name.
 pub(crate) fn outcome_name(outcome: Outcome) -> &'static str {
     match outcome {
-        Outcome::Ongoing => "ongoing",
-        Outcome::Won => "won",
-        Outcome::Lost => "lost",
-        Outcome::Ended => "ended",
-        Outcome::Stopped(_) => "stopped",
+        Outcome::Ongoing => OUTCOMES[0],
+        Outcome::Won => OUTCOMES[1],
+        Outcome::Lost => OUTCOMES[2],
+        Outcome::Ended => OUTCOMES[3],
+        Outcome::Stopped(_) => OUTCOMES[4],
     }
 }
 
@@ -154,7 +158,7 @@ impl Game {
     #[pyo3(signature = (text, *, name = "level"))]
     fn level(&self, py: Python<'_>, text: &str, name: &str) -> PyResult<Level> {
         let level = self.0.game.level(text).map_err(|problems| malformed(py, name, text, &problems.0))?;
-        Ok(Level { game: self.clone(), name: name.to_owned(), level })
+        Ok(Level { game: self.clone(), name: name.into(), level: Arc::new(level) })
     }
 
     /// Returns the game's rules in plain English.
@@ -221,8 +225,7 @@ impl Level {
     }
 
     fn start(&self, seed: &str) -> State {
-        let state = self.game.0.game.start(&self.level, seed_of(seed));
-        State::new(self.game.clone(), state)
+        State::start(self, seed_of(seed))
     }
 
     /// Renders an episode as an animated GIF.

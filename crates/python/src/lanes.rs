@@ -4,11 +4,10 @@
 //! Each lane plays independently, with its own seed. The results do not depend on the number of threads.
 
 use crate::errors::{failed, invalid};
-use crate::game::{Game, Level, Rules, outcome_name, seed_of};
-use crate::picture;
+use crate::game::{Level, outcome_name, seed_of};
+use crate::lane::{Autoreset, Lane, Last, SavedLane, Setting, Sight, Told};
 use crate::state::State;
-use base::Seed;
-use engine::{Action, Chance, Drawn, Outcome, Planes};
+use engine::Outcome;
 use numpy::{PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -16,178 +15,14 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// The number of lanes per task in the thread pool.
 const LANES_OF_A_TASK: usize = 64;
-
-/// The rule that determines when a lane whose episode has ended starts a new one.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Autoreset {
-    /// The next step starts a new episode and ignores its action.
-    NextStep,
-    /// The step that ends an episode also starts the next episode.
-    SameStep,
-    /// A lane whose episode has ended stays idle until it is reset.
-    Disabled,
-}
-
-/// The format of an observation.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Sight {
-    /// `[planes][rows][columns]`, with 1 in each cell that contains a sprite of the plane's type.
-    Planes,
-    /// `[rows][columns]`, with the ASCII code for each cell's topmost sprite. `Lanes.symbols` lists the
-    /// characters.
-    Symbols,
-    /// `[height][width][3]`, an RGB image with the given number of pixels per cell.
-    Rgb(u32),
-}
-
-/// The data shared by all lanes.
-struct Setting {
-    game: Game,
-    roots: Vec<engine::State>,
-    planes: Planes,
-    columns: usize,
-    rows: usize,
-    sight: Sight,
-    /// The sprite types in drawing order, each with the character that represents it on boards of symbols.
-    characters: Vec<(usize, u8)>,
-    max_steps: u64,
-    autoreset: Autoreset,
-}
-
-/// A lane, with its current episode.
-struct Lane {
-    state: engine::State,
-    root: usize,
-    seed: Seed,
-    /// The number of episodes started with this seed before the current one.
-    episodes: u64,
-    /// The seed of the current episode.
-    current: Seed,
-    steps: u64,
-    is_over: bool,
-    /// The score and outcome of the last finished episode. Callers need them if the step that ended it has
-    /// already started the next episode.
-    last: (f64, Outcome),
-    drawn: Drawn,
-}
-
-/// The output of one lane's step.
-struct Told<'a> {
-    observation: &'a mut [u8],
-    reward: &'a mut f64,
-    terminated: &'a mut bool,
-    truncated: &'a mut bool,
-}
-
-impl Setting {
-    fn rules(&self) -> &Rules {
-        &self.game.0
-    }
-
-    /// Returns the size of an observation, in bytes.
-    fn size(&self) -> usize {
-        match self.sight {
-            Sight::Planes => self.planes.size(),
-            Sight::Symbols => self.columns * self.rows,
-            Sight::Rgb(cell) => self.columns * self.rows * (cell * cell * 3) as usize,
-        }
-    }
-
-    fn shape(&self) -> Vec<usize> {
-        match self.sight {
-            Sight::Planes => vec![self.planes.types().len(), self.rows, self.columns],
-            Sight::Symbols => vec![self.rows, self.columns],
-            Sight::Rgb(cell) => vec![self.rows * cell as usize, self.columns * cell as usize, 3],
-        }
-    }
-
-    /// Draws an observation from scratch.
-    fn draw(&self, lane: &mut Lane, out: &mut [u8]) {
-        match self.sight {
-            Sight::Planes => self.planes.draw(&mut lane.state, &mut lane.drawn, out),
-            Sight::Symbols => self.draw_symbols(&lane.state, out),
-            Sight::Rgb(cell) => self.draw_pixels(&lane.state, cell, out),
-        }
-    }
-
-    /// Draws an observation by updating the lane's previous observation.
-    fn update(&self, lane: &mut Lane, out: &mut [u8]) {
-        match self.sight {
-            Sight::Planes => self.planes.update(&mut lane.state, &mut lane.drawn, out),
-            _ => self.draw(lane, out),
-        }
-    }
-
-    fn draw_symbols(&self, state: &engine::State, out: &mut [u8]) {
-        out.fill(render::EMPTY as u8);
-        for &(plane, character) in &self.characters {
-            self.planes.visit(state, plane, |cell| out[cell] = character);
-        }
-    }
-
-    fn draw_pixels(&self, state: &engine::State, cell: u32, out: &mut [u8]) {
-        let image = picture::pixels(&self.rules().looks, state, cell).expect("the size was checked");
-        let width = self.columns * cell as usize * 3;
-        out.fill(0);
-        for (row, line) in out.chunks_exact_mut(width).zip(image.pixels.chunks(image.width as usize)) {
-            for (pixel, colour) in row.chunks_exact_mut(3).zip(line) {
-                pixel.copy_from_slice(&colour.0);
-            }
-        }
-    }
-
-    /// Starts the next episode in a lane.
-    fn begin(&self, lane: &mut Lane, out: &mut [u8]) {
-        lane.current = lane.seed.child("episode", lane.episodes);
-        lane.episodes += 1;
-        self.start(lane, out);
-    }
-
-    /// Starts an episode in a lane with the lane's current seed.
-    fn start(&self, lane: &mut Lane, out: &mut [u8]) {
-        lane.state.fork_from(&self.roots[lane.root], Chance::from_seed(lane.current));
-        (lane.steps, lane.is_over) = (0, false);
-        self.draw(lane, out);
-    }
-
-    /// Plays one step in a lane. Returns `true` if the step ended an episode.
-    fn step(&self, lane: &mut Lane, action: Action, told: Told<'_>, last: Option<&mut [u8]>) -> bool {
-        (*told.reward, *told.terminated, *told.truncated) = (0.0, false, false);
-        if lane.is_over {
-            if self.autoreset == Autoreset::NextStep {
-                self.begin(lane, told.observation);
-            }
-            return false;
-        }
-        let before = lane.state.score();
-        let outcome = self.rules().game.step(&mut lane.state, action);
-        lane.steps += 1;
-        *told.reward = lane.state.score() - before;
-        *told.terminated = outcome != Outcome::Ongoing;
-        *told.truncated = !*told.terminated && lane.steps >= self.max_steps;
-        lane.is_over = *told.terminated || *told.truncated;
-        match last.filter(|_| lane.is_over) {
-            Some(last) => {
-                self.draw(lane, last);
-                lane.last = (lane.state.score(), outcome);
-                self.begin(lane, told.observation);
-                true
-            }
-            None => {
-                self.update(lane, told.observation);
-                lane.is_over
-            }
-        }
-    }
-}
+/// The minimum number of lanes for which a thread pool is faster than the calling thread alone.
+const LANES_OF_A_POOL: usize = 4 * LANES_OF_A_TASK;
 
 /// Many lanes of one game, stepped together.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct Lanes {
     setting: Setting,
     lanes: Vec<Lane>,
-    /// The actions, in index order.
-    actions: Vec<Action>,
     /// The thread pool, or `None` to use the calling thread only.
     pool: Option<ThreadPool>,
 }
@@ -195,72 +30,32 @@ pub(crate) struct Lanes {
 #[pymethods]
 impl Lanes {
     #[new]
-    #[pyo3(signature = (levels, count, *, observation, cell, max_steps, autoreset, threads))]
+    #[pyo3(signature = (levels, count, *, size, observation, cell, max_steps, autoreset, threads))]
+    #[allow(clippy::too_many_arguments, reason = "the arguments are the settings of the environments")]
     fn new(
         levels: Vec<Bound<'_, Level>>,
         count: usize,
+        size: (usize, usize),
         observation: &str,
         cell: u32,
         max_steps: u64,
         autoreset: &str,
         threads: usize,
     ) -> PyResult<Lanes> {
-        let Some(first) = levels.first() else { return Err(invalid("there is no level to play")) };
-        let game = first.get().game.clone();
-        if levels.iter().any(|level| level.get().game.0.game.digest() != game.0.game.digest()) {
-            return Err(invalid("all levels of a vector environment must belong to one game"));
-        }
         if count == 0 || max_steps == 0 {
             return Err(invalid("an environment needs at least one lane and one step"));
         }
-        let sight = match observation {
-            "planes" => Sight::Planes,
-            "symbols" => Sight::Symbols,
-            "rgb" => Sight::Rgb(cell),
-            _ => {
-                let message =
-                    format_args!("unknown observation `{observation}`; choose planes, symbols or rgb");
-                return Err(invalid(message));
-            }
-        };
-        let autoreset = match autoreset {
-            "next-step" => Autoreset::NextStep,
-            "same-step" => Autoreset::SameStep,
-            "disabled" => Autoreset::Disabled,
-            _ => return Err(invalid(format_args!("there is no autoreset mode `{autoreset}`"))),
-        };
-        let seed = Seed::from_text("unseeded");
-        let roots: Vec<engine::State> =
-            levels.iter().map(|level| game.0.game.start(&level.get().level, seed)).collect();
-        let most = |size: fn(&engine::Level) -> usize| {
-            levels.iter().map(|level| size(&level.get().level)).max().unwrap_or_default()
-        };
-        let (columns, rows) = (most(engine::Level::columns), most(engine::Level::rows));
-        if let Sight::Rgb(cell) = sight {
-            for root in &roots {
-                picture::pixels(&game.0.looks, root, cell).map_err(invalid)?;
-            }
-        }
-        let planes = Planes::new(&game.0.game, game.0.looks.shown(), columns, rows);
-        let characters = characters(&game.0, &planes);
-        if sight == Sight::Symbols && characters.is_none() {
-            return Err(invalid("the game has more sprite types than there are ASCII characters"));
-        }
-        let characters = characters.unwrap_or_default();
-        let lane = |number: usize| {
-            let root = number % roots.len();
-            let current = seed.child("lane", number as u64);
-            let (state, last, drawn) = (roots[root].clone(), (0.0, Outcome::Ongoing), Drawn::default());
-            Lane { state, root, seed: current, episodes: 0, current, steps: 0, is_over: false, last, drawn }
-        };
-        let lanes = (0..count).map(lane).collect();
-        let actions = game.0.actions.clone();
-        let setting = Setting { game, roots, planes, columns, rows, sight, characters, max_steps, autoreset };
+        let levels = levels.iter().map(|level| level.get().clone()).collect();
+        let (sight, autoreset) = (Sight::named(observation, cell)?, Autoreset::named(autoreset)?);
+        let setting = Setting::new(levels, size, sight, max_steps, autoreset)?;
+        let lanes = (0..count).map(|number| setting.lane(number)).collect();
         let pool = match threads {
-            1 => None,
-            _ => Some(ThreadPoolBuilder::new().num_threads(threads).build().map_err(failed)?),
+            0 | 2.. if count >= LANES_OF_A_POOL => {
+                Some(ThreadPoolBuilder::new().num_threads(threads).build().map_err(failed)?)
+            }
+            _ => None,
         };
-        Ok(Lanes { setting, lanes, actions, pool })
+        Ok(Lanes { setting, lanes, pool })
     }
 
     fn __len__(&self) -> usize {
@@ -278,6 +73,53 @@ impl Lanes {
     fn planes(&self) -> Vec<&str> {
         let game = &self.setting.rules().game;
         self.setting.planes.types().iter().map(|&stype| game.name(stype)).collect()
+    }
+
+    /// The names of the numbers in a status.
+    #[getter]
+    fn status_names(&self) -> Vec<String> {
+        self.setting.status.names()
+    }
+
+    /// Writes the status of each lane, one after another.
+    fn status(&self, py: Python<'_>, mut out: PyReadwriteArray1<'_, f32>) -> PyResult<()> {
+        let (out, size) = (out.as_slice_mut()?, self.setting.status.len());
+        if out.len() != self.lanes.len() * size {
+            return Err(invalid("a status is needed for each lane"));
+        }
+        py.detach(|| {
+            for (lane, out) in self.lanes.iter().zip(out.chunks_exact_mut(size)) {
+                self.setting.write_status(lane, out);
+            }
+        });
+        Ok(())
+    }
+
+    /// Returns the parts from which [`Lanes::restore`] restores the lanes.
+    fn save(&self) -> Vec<SavedLane> {
+        self.lanes.iter().map(Lane::saved).collect()
+    }
+
+    /// Restores saved lanes by replaying their episodes, and writes their observations.
+    fn restore(
+        &mut self,
+        py: Python<'_>,
+        saved: Vec<SavedLane>,
+        mut observations: PyReadwriteArray1<'_, u8>,
+    ) -> PyResult<()> {
+        let out = observations.as_slice_mut()?;
+        let Lanes { setting, lanes, .. } = self;
+        let size = setting.size();
+        let is_same = saved.len() == lanes.len() && saved.iter().all(|saved| setting.fits(saved));
+        if !is_same || out.len() != lanes.len() * size {
+            return Err(invalid("the saved lanes belong to a different environment"));
+        }
+        py.detach(|| {
+            for ((lane, saved), out) in lanes.iter_mut().zip(saved).zip(out.chunks_exact_mut(size)) {
+                setting.restore(lane, saved, out);
+            }
+        });
+        Ok(())
     }
 
     /// The seed of each lane's current episode.
@@ -310,17 +152,19 @@ impl Lanes {
         self.lanes.iter().map(|lane| lane.state.score()).collect()
     }
 
-    /// Returns the score and outcome of the last finished episode in a lane. They are needed for lanes that
-    /// start the next episode in the same step.
-    fn last(&self, lane: usize) -> PyResult<(f64, &'static str)> {
-        let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
-        Ok((found.last.0, outcome_name(found.last.1)))
+    /// Returns the score, outcome and status at the end of the last finished episode in a lane. They are
+    /// needed for lanes that start the next episode in the same step.
+    fn last(&self, lane: usize) -> PyResult<Last> {
+        Ok(self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?.last.clone())
     }
 
     /// Returns a copy of a lane's state.
     fn state(&self, lane: usize) -> PyResult<State> {
         let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
-        Ok(State::new(self.setting.game.clone(), found.state.clone()))
+        let named = &self.setting.rules().actions;
+        let actions = found.actions.iter().map(|&action| named[usize::from(action)]).collect();
+        let level = self.setting.levels[found.root].clone();
+        Ok(State::of_episode(level, found.state.clone(), found.current, actions))
     }
 
     /// Sets a lane's seed, from which the seeds of its episodes are derived. If `exact` is `true`, the next
@@ -342,12 +186,12 @@ impl Lanes {
         }
     }
 
-    /// Sets the level that a lane plays, starting with its next episode.
+    /// Sets the level of a lane's next episode.
     fn choose(&mut self, lane: usize, level: usize) -> PyResult<()> {
         if level >= self.setting.roots.len() {
             return Err(invalid(format_args!("the environment has no level {level}")));
         }
-        self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?.root = level;
+        self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?.chosen = Some(level);
         Ok(())
     }
 
@@ -397,7 +241,8 @@ impl Lanes {
         mut truncated: PyReadwriteArray1<'_, bool>,
         mut last: Option<PyReadwriteArray1<'_, u8>>,
     ) -> PyResult<usize> {
-        let Lanes { setting, lanes, pool, actions: named } = self;
+        let Lanes { setting, lanes, pool } = self;
+        let named = setting.rules().actions.len();
         let (chosen, out, size) = (actions.as_slice()?, observations.as_slice_mut()?, setting.size());
         let (rewards, terminated) = (rewards.as_slice_mut()?, terminated.as_slice_mut()?);
         let truncated = truncated.as_slice_mut()?;
@@ -414,17 +259,16 @@ impl Lanes {
                 "an action and an observation are needed for each of {count} lanes"
             )));
         }
-        let is_known = |action: &i64| usize::try_from(*action).is_ok_and(|at| at < named.len());
+        let is_known = |action: &i64| usize::try_from(*action).is_ok_and(|at| at < named);
         if let Some(wrong) = chosen.iter().find(|action| !is_known(action)) {
             return Err(invalid(format_args!(
-                "action {wrong} is not one of the game's {} actions",
-                named.len()
+                "action {wrong} is not one of the game's {named} actions; they are numbered from 0"
             )));
         }
         Ok(py.detach(|| {
-            let (setting, named) = (&*setting, &*named);
+            let setting = &*setting;
             let play = |lane: &mut Lane, action: &i64, told: Told<'_>, last: Option<&mut [u8]>| {
-                usize::from(setting.step(lane, named[*action as usize], told, last))
+                usize::from(setting.step(lane, *action as u8, told, last))
             };
             let task = |(lanes, first): (&mut [Lane], usize), told: Buffers<'_>| {
                 let Buffers { out, rewards, terminated, truncated, mut last } = told;
@@ -461,19 +305,20 @@ impl Lanes {
         rounds: usize,
     ) -> PyResult<u64> {
         let chosen = actions.as_slice()?;
-        let Lanes { setting, lanes, actions: named, .. } = self;
-        let wrong = |action: &i64| usize::try_from(*action).map_or(true, |at| at >= named.len());
+        let Lanes { setting, lanes, .. } = self;
+        let named = setting.rules().actions.len();
+        let wrong = |action: &i64| usize::try_from(*action).map_or(true, |at| at >= named);
         if chosen.is_empty() || chosen.iter().any(wrong) {
             return Err(invalid("some of the actions do not exist in the game"));
         }
         Ok(py.detach(|| {
-            let (game, mut at, mut ended) = (&setting.rules().game, 0, 0);
+            let (mut at, mut ended) = (0, 0);
             for _ in 0..rounds {
                 for lane in lanes.iter_mut() {
-                    if game.step(&mut lane.state, named[chosen[at] as usize]) != Outcome::Ongoing {
+                    if setting.advance(lane, chosen[at] as u8) != Outcome::Ongoing {
                         lane.current = lane.seed.child("episode", lane.episodes);
                         lane.episodes += 1;
-                        lane.state.fork_from(&setting.roots[lane.root], Chance::from_seed(lane.current));
+                        setting.place(lane);
                         ended += 1;
                     }
                     at = if at + 1 == chosen.len() { 0 } else { at + 1 };
@@ -514,20 +359,4 @@ impl<'a> Buffers<'a> {
         };
         parts.map(part).collect()
     }
-}
-
-/// Returns the planes in drawing order with their characters, without floors. Returns `None` if a character
-/// is not ASCII.
-fn characters(rules: &Rules, planes: &Planes) -> Option<Vec<(usize, u8)>> {
-    let order = rules.game.drawing_order();
-    let place = |stype: engine::SpriteType| order.iter().position(|&other| other == stype.0);
-    let mut shown: Vec<(Option<usize>, usize, char)> = planes
-        .types()
-        .iter()
-        .enumerate()
-        .map(|(plane, &stype)| (place(stype), plane, rules.symbols.symbol(stype)))
-        .filter(|&(_, _, symbol)| symbol != render::EMPTY)
-        .collect();
-    shown.sort_unstable();
-    shown.into_iter().map(|(_, plane, symbol)| symbol.is_ascii().then_some((plane, symbol as u8))).collect()
 }

@@ -3,6 +3,7 @@
 
 use crate::corpus::corpus;
 use crate::errors::{failed, invalid};
+use crate::interrupt::interruptible;
 use base::{Digest, Seed};
 use evaluation::reference::{ReferencePlayer, ReferencePlays, SEED};
 use include_dir::{Dir, include_dir};
@@ -29,7 +30,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
 #[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
 pub(crate) fn mint(
     py: Python<'_>,
-    recipe: &str,
+    recipe: String,
     out: PathBuf,
     parent: Option<PathBuf>,
     secret: Option<PathBuf>,
@@ -38,9 +39,9 @@ pub(crate) fn mint(
     jobs: Option<usize>,
 ) -> PyResult<String> {
     let shard: Option<Shard> = shard.map(str::parse).transpose().map_err(invalid)?;
-    py.detach(|| {
+    interruptible(py, move |interrupt| {
         let secret = secret.as_deref().map(read_secret).transpose().map_err(failed)?;
-        let mut recipe = Recipe::to_mint(recipe, secret.as_ref()).map_err(failed)?;
+        let mut recipe = Recipe::to_mint(&recipe, secret.as_ref()).map_err(failed)?;
         match &parent {
             Some(parent) => follow(&mut recipe, parent).map_err(failed)?,
             None if recipe.parent.is_some() => {
@@ -50,7 +51,7 @@ pub(crate) fn mint(
         }
         let order = Order { recipe, secret, out, shard, resume };
         let corpus = hand_written()?;
-        match in_pool(jobs, || order.mint(tools(&corpus), &()))?.map_err(failed)? {
+        match in_pool(jobs, || order.mint(tools(&corpus), interrupt))?.map_err(failed)? {
             Outcome::Complete => Ok(json!({ "out": order.out, "complete": true }).to_string()),
             Outcome::Shard(jobs) => {
                 let shard = order.shard.map(|shard| shard.to_string());
@@ -71,7 +72,7 @@ pub(crate) fn merge(
     secret: Option<PathBuf>,
     jobs: Option<usize>,
 ) -> PyResult<String> {
-    py.detach(|| {
+    interruptible(py, move |_| {
         let secret = secret.as_deref().map(read_secret).transpose().map_err(failed)?;
         let shards = Shards::open(&shards).map_err(failed)?;
         let corpus = hand_written()?;

@@ -1,31 +1,79 @@
 //! Episode states, with functions for stepping, hashing and observing them.
 
 use crate::errors::{failed, invalid};
-use crate::game::{Game, action_named, outcome_name, seed_of};
+use crate::game::{Level, action_named, outcome_name, seed_of};
 use crate::picture;
-use engine::{Outcome, Planes};
+use base::Seed;
+use engine::{Action, Outcome, Planes};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 /// An episode's state.
 #[pyclass(module = "infinite_arcade")]
+#[derive(Clone)]
 pub(crate) struct State {
-    pub(crate) game: Game,
+    level: Level,
     pub(crate) state: engine::State,
+    history: History,
+}
+
+/// The part of a history between two seeds: a seed, and the actions played with it.
+type Played = (Seed, Vec<Action>);
+
+/// The parts of an episode that lead to a state. The first seed starts the level, and each further seed is
+/// that of a fork.
+#[derive(Clone)]
+struct History(Vec<Played>);
+
+impl History {
+    fn record(&mut self, action: Action) {
+        let (_, actions) = self.0.last_mut().expect("a history starts with a seed");
+        actions.push(action);
+    }
 }
 
 impl State {
-    pub(crate) fn new(game: Game, state: engine::State) -> State {
-        State { game, state }
+    /// Starts a level.
+    pub(crate) fn start(level: &Level, seed: Seed) -> State {
+        let state = level.game.0.game.start(&level.level, seed);
+        State::of_episode(level.clone(), state, seed, Vec::new())
+    }
+
+    /// Creates the state to which a seed and actions have led.
+    pub(crate) fn of_episode(level: Level, state: engine::State, seed: Seed, actions: Vec<Action>) -> State {
+        State { level, state, history: History(vec![(seed, actions)]) }
+    }
+
+    /// The compiled game of the state.
+    pub(crate) fn rules(&self) -> &engine::Game {
+        &self.level.game.0.game
+    }
+
+    /// Plays one tick. A finished state stays as it is.
+    fn advance(&mut self, action: Action) -> Outcome {
+        if !self.state.is_over() {
+            self.history.record(action);
+        }
+        let outcome = self.level.game.0.game.step(&mut self.state, action);
+        self.state.settle_hash();
+        outcome
     }
 }
 
 #[pymethods]
 impl State {
     #[getter]
-    fn game(&self) -> Game {
-        self.game.clone()
+    fn level(&self) -> Level {
+        self.level.clone()
+    }
+
+    /// The seeds and actions that lead to the state. The first seed starts the level, and each further seed is
+    /// that of a fork.
+    #[getter]
+    fn history(&self) -> Vec<(String, Vec<&'static str>)> {
+        let names = |actions: &[Action]| actions.iter().map(|action| action.name()).collect();
+        self.history.0.iter().map(|(seed, actions)| (seed.to_string(), names(actions))).collect()
     }
 
     /// The number of ticks played so far.
@@ -66,30 +114,26 @@ impl State {
 
     #[getter]
     fn actions(&self) -> Vec<&'static str> {
-        self.game.0.game.actions(&self.state).iter().map(|action| action.name()).collect()
+        self.level.game.0.game.actions(&self.state).iter().map(|action| action.name()).collect()
     }
 
     /// Plays one tick with the given action, and returns the outcome.
     fn step(&mut self, action: &str) -> PyResult<&'static str> {
         let action = action_named(action)?;
-        let outcome = self.game.0.game.step(&mut self.state, action);
-        self.state.settle_hash();
-        Ok(outcome_name(outcome))
+        Ok(outcome_name(self.advance(action)))
     }
 
     /// Plays one action per tick, and returns the state hash after each tick. Stops when the episode ends.
     fn play(&mut self, py: Python<'_>, actions: Vec<String>) -> PyResult<Vec<String>> {
         let actions = actions.iter().map(|name| action_named(name)).collect::<PyResult<Vec<_>>>()?;
-        let State { game, state } = self;
         Ok(py.detach(|| {
             let mut hashes = Vec::with_capacity(actions.len());
             for action in actions {
-                if state.is_over() {
+                if self.state.is_over() {
                     break;
                 }
-                game.0.game.step(state, action);
-                state.settle_hash();
-                hashes.push(state.state_hash().to_string());
+                self.advance(action);
+                hashes.push(self.state.state_hash().to_string());
             }
             hashes
         }))
@@ -100,24 +144,19 @@ impl State {
     }
 
     fn copy(&self) -> State {
-        State::new(self.game.clone(), self.state.clone())
-    }
-
-    fn __copy__(&self) -> State {
-        self.copy()
-    }
-
-    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> State {
-        self.copy()
+        self.clone()
     }
 
     fn fork(&self, seed: &str) -> State {
-        State::new(self.game.clone(), self.state.fork(seed_of(seed)))
+        let seed = seed_of(seed);
+        let mut history = self.history.clone();
+        history.0.push((seed, Vec::new()));
+        State { level: self.level.clone(), state: self.state.fork(seed), history }
     }
 
     /// Returns a player's observation as a dictionary.
     fn observe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let seen = self.game.0.game.observe(&self.state);
+        let seen = self.level.game.0.game.observe(&self.state);
         let shown = PyDict::new(py);
         shown.set_item("ticks", seen.ticks)?;
         shown.set_item("score", seen.score)?;
@@ -138,7 +177,7 @@ impl State {
 
     /// Returns the board's planes as flat bytes, in the format used by `Lanes`.
     fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
-        let rules = &self.game.0;
+        let rules = &self.level.game.0;
         let (columns, rows) = self.state.size();
         let planes = Planes::new(&rules.game, rules.looks.shown(), columns as usize, rows as usize);
         let mut board = vec![0; planes.size()];
@@ -148,17 +187,17 @@ impl State {
 
     /// Returns the board as lines of characters.
     fn text(&self) -> String {
-        render::rows(&self.game.0.looks, &self.game.0.symbols, &self.state)
+        render::rows(&self.level.game.0.looks, &self.level.game.0.symbols, &self.state)
     }
 
     /// Returns the board, tick, score, holdings and legend as text.
     fn full_text(&self) -> String {
-        render::text(&self.game.0.looks, &self.game.0.symbols, &self.state)
+        render::text(&self.level.game.0.looks, &self.level.game.0.symbols, &self.state)
     }
 
     /// Returns an image of the board: its height, its width and its flat RGB bytes.
     fn rgb<'py>(&self, py: Python<'py>, cell: u32) -> PyResult<(u32, u32, Bound<'py, PyArray1<u8>>)> {
-        let image = picture::pixels(&self.game.0.looks, &self.state, cell).map_err(invalid)?;
+        let image = picture::pixels(&self.level.game.0.looks, &self.state, cell).map_err(invalid)?;
         let bytes = image.pixels.iter().flat_map(|colour| colour.0).collect();
         let array = PyArray1::from_vec(py, bytes);
         Ok((image.height, image.width, array))
@@ -173,21 +212,21 @@ impl State {
         legend: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let style = render::Style { cell, caption, legend };
-        let drawn = render::picture(&self.game.0.looks, &self.state, &style).map_err(invalid)?;
+        let drawn = render::picture(&self.level.game.0.looks, &self.state, &style).map_err(invalid)?;
         Ok(PyBytes::new(py, &render::png(&drawn).map_err(failed)?))
     }
 
     #[pyo3(signature = (cell, *, caption = false, legend = false))]
     fn svg(&self, cell: u32, caption: bool, legend: bool) -> PyResult<String> {
         let style = render::Style { cell, caption, legend };
-        Ok(render::svg(&render::picture(&self.game.0.looks, &self.state, &style).map_err(invalid)?))
+        Ok(render::svg(&render::picture(&self.level.game.0.looks, &self.state, &style).map_err(invalid)?))
     }
 
     fn __repr__(&self) -> String {
         let (ticks, score) = (self.ticks(), self.score());
         format!(
             "<State of {} after {}, score {score}, {}>",
-            self.game.0.name,
+            self.level.game.0.name,
             base::count(ticks as usize, "tick"),
             self.outcome()
         )

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-import infinite_arcade as ia
-
 ROOT = Path(__file__).parents[3]
+
+# `python -m pytest` puts this folder before the installed packages. An installed wheel has the extension, the folder
+# does not.
+if not any((ROOT / "crates/python/infinite_arcade").glob("_native*.so")):
+    sys.path[:] = [entry for entry in sys.path if Path(entry).resolve() != ROOT / "crates/python"]
+
+import infinite_arcade as ia
 
 #: A corridor in which the squirrel is one or two steps from the nut, and loses after 20 ticks.
 NUT = """BasicGame
@@ -36,7 +43,8 @@ def nut() -> ia.Game:
 @pytest.fixture(scope="session")
 def arcade() -> Path:
     """Returns the path of the command line, if it has been built."""
-    found = [ROOT / "target" / profile / "arcade" for profile in ("release", "debug")]
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    found = [target / profile / "arcade" for profile in ("release", "debug")]
     built = [path for path in found if path.is_file()]
     if not built:
         pytest.skip("arcade has not been built: cargo build --release")

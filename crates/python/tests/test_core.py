@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import infinite_arcade as ia
+
+from conftest import NUT
 
 BROKEN = "BasicGame\n    SpriteSet\n        a > Door\n        b > Foo\n    LevelMapping\n        a > c\n"
 
@@ -225,3 +230,138 @@ def test_what_is_no_game_is_named(tmp_path: Path) -> None:
     file.write_bytes(b"BasicGame\xff")
     with pytest.raises(ia.ArcadeError, match=r"game\.vgdl: not a text file \(byte 9 is not UTF-8\); save it"):
         ia.load(file)
+
+
+def same_future(one: ia.State, two: ia.State, game: ia.Game) -> bool:
+    actions = [game.actions[tick % len(game.actions)] for tick in range(12)]
+    return one.state_hash() == two.state_hash() and one.copy().play(actions) == two.copy().play(actions)
+
+
+@pytest.mark.parametrize("name", ["heath-fire", "hailglass", "diving-bell"])
+def test_games_levels_and_states_are_pickled(name: str) -> None:
+    game = ia.load(name)
+    for other in (pickle.loads(pickle.dumps(game)), copy.deepcopy(game)):
+        assert (other.id, other.title, other.digest, other.name) == (game.id, game.title, game.digest, game.name)
+        assert [level.digest for level in other.levels] == [level.digest for level in game.levels]
+        other.levels.clear()
+    assert game.levels
+    level = pickle.loads(pickle.dumps(game.levels[2]))
+    assert (level.number, level.name, level.digest) == (2, game.levels[2].name, game.levels[2].digest)
+    state = game.levels[2].start(5)
+    state.play([game.actions[tick % len(game.actions)] for tick in range(9)])
+    forked = state.fork("another future")
+    forked.play([game.actions[-1]] * 3)
+    for one in (state, forked, game.levels[0].start("x")):
+        assert same_future(one, pickle.loads(pickle.dumps(one)), game)
+        assert same_future(one, copy.deepcopy(one), game)
+    over = game.levels[0].start("over")
+    while not over.is_over:
+        over.step("nil")
+    over.step("nil")
+    assert pickle.loads(pickle.dumps(over)).state_hash() == over.state_hash()
+    episode = ia.Episode(level, 7, tuple(game.actions))
+    assert pickle.loads(pickle.dumps(episode)).replay().state_hash() == episode.replay().state_hash()
+
+
+def test_games_as_reference_are_pickled() -> None:
+    game = ia.Game(NUT, ["S n"], id="nut", as_reference=True)
+    assert pickle.loads(pickle.dumps(game))._native.as_reference
+    assert pickle.loads(pickle.dumps(game.levels[0]))._native.game.as_reference
+
+
+@pytest.mark.parametrize("name", ia.PLANNERS)
+def test_planners_are_pickled(name: str) -> None:
+    game = ia.load("heath-fire")
+    state, planner = game.levels[0].start("s"), ia.Planner(f"{name}:60", seed=1)
+    for _ in range(3):
+        state.step(planner.act(state))
+    copies = [pickle.loads(pickle.dumps(planner)), copy.deepcopy(planner)]
+    for _ in range(4):
+        plan = planner.plan(state, 2)
+        assert [other.plan(state, 2) for other in copies] == [plan, plan]
+        state.step(plan[0][0])
+
+
+def test_an_integer_is_a_seed(nut: ia.Game) -> None:
+    game = ia.load("heath-fire")
+    level = game.levels[0]
+    assert level.start(7).state_hash() == level.start("7").state_hash() == level.start(np.int64(7)).state_hash()
+    assert level.start(7).fork(8).state_hash() == level.start("7").fork("8").state_hash()
+    assert ia.validate(nut.levels[0], budget=500, seed=1) == ia.validate(nut.levels[0], budget=500, seed="1")
+    for wrong in (1.5, None, True):
+        with pytest.raises(TypeError, match="`seed` must be a text or an integer, not"):
+            level.start(wrong)  # type: ignore[arg-type]
+
+
+def test_wrong_numbers_are_named(nut: ia.Game) -> None:
+    with pytest.raises(ValueError, match="`budget` must be at least 1, not -5"):
+        ia.validate(nut.levels[0], budget=-5)
+    with pytest.raises(ValueError, match="`levels` must be at least 1, not 0"):
+        ia.generate_games(levels=0)
+    with pytest.raises(TypeError, match="`size` must be a pair of columns and rows, not 9"):
+        ia.generate_levels(nut, size=9)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="the planner mcts:0 needs a budget of at least 1"):
+        ia.Planner("mcts:0", seed="s")
+    with pytest.raises(TypeError, match="`game` must be one game, by path or name, not list"):
+        ia.load(["hailglass", "heath-fire"])  # type: ignore[arg-type]
+
+
+def test_a_checked_level_does_not_change_the_game(nut: ia.Game) -> None:
+    level = nut.level("S   n")
+    assert level.number == 2 and len(nut.levels) == 2
+    nut.levels.append(level)
+    assert [found.number for found in nut.levels] == [0, 1, 2]
+
+
+def test_games_are_saved(nut: ia.Game, tmp_path: Path) -> None:
+    nut.save(tmp_path / "nut")
+    again = ia.load(tmp_path / "nut")
+    assert (again.id, again.digest) == ("nut", nut.digest)
+    assert [level.digest for level in again.levels] == [level.digest for level in nut.levels]
+    with pytest.raises(FileExistsError, match="not empty"):
+        nut.save(tmp_path / "nut")
+
+
+def test_games_without_a_name_have_ids_of_their_own() -> None:
+    one, two = ia.Game(NUT), ia.Game(NUT.replace("limit=20", "limit=30"))
+    assert one.id == one.title == f"game-{one.digest[:8]}" and one.id != two.id
+
+
+def test_levels_are_verified_on_request() -> None:
+    drawn = ia.generate_levels("hailglass", method="constructive", count=3, seed="v")
+    assert [(level["verified"], level["witness"]) for level in drawn] == [(False, None)] * 3
+    game = ia.load("hailglass")
+    for made in ia.generate_levels(game, method="constructive", count=2, seed="v", verified=True):
+        assert made["verified"]
+        state = game.level(made["text"]).start(made["witness"]["seed"])
+        state.play(made["witness"]["actions"])
+        assert state.outcome == "won"
+
+
+INTERRUPTED = """
+import os, signal, threading, time
+import infinite_arcade as ia
+threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+started = time.monotonic()
+try:
+    {call}
+except KeyboardInterrupt:
+    print(time.monotonic() - started)
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "ia.generate_games(count=50, levels=5)",
+        "ia.generate_levels('hailglass', method='search', count=500)",
+        "ia.validate(ia.load('heath-fire').levels[4], budget=1_000_000_000)",
+        "ia.mint('2026-12', 'out')",
+        "ia.Planner('mcts', seed=0, budget=100_000_000).act(ia.load('heath-fire').levels[4].start(0))",
+    ],
+)
+def test_long_calls_end_soon_after_an_interrupt(call: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-c", INTERRUPTED.format(call=call)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) < 10, "the signal comes after a second"

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -15,7 +16,8 @@ from typing import Any
 import pytest
 from inspect_ai import Task, eval
 from inspect_ai.log import EvalLog, read_eval_log
-from inspect_ai.model import ChatMessage, Model, ModelOutput, ModelUsage, get_model
+from inspect_ai.model import ChatMessage, ChatMessageUser, Model, ModelOutput, ModelUsage, get_model
+from inspect_ai.solver import Generate, Solver, TaskState, solver
 
 import infinite_arcade as ia
 from infinite_arcade import _native, inspect as tasks
@@ -210,12 +212,94 @@ def test_a_player_can_commit_to_several_actions(tmp_path: Path) -> None:
     assert metrics(log)["win"]["mean"] == 1.0 and len(answers) == 1
 
 
-def test_limits_leave_an_episode_open(tmp_path: Path) -> None:
-    log = run(nut_task(tmp_path, levels=[2]), lambda _: "no", tmp_path, token_limit=1)
-    assert log.samples is not None
-    [sample] = log.samples
-    assert sample.limit is not None and sample.limit.type == "token"
-    assert sample.scores is not None and sample.scores["win"].reason == "episode_open"
+LIMITS = [{"token_limit": 15}, {"message_limit": 5}, {"time_limit": 2}]
+
+
+@pytest.mark.parametrize("limit", LIMITS, ids=lambda limit: next(iter(limit)))
+def test_every_sample_counts_within_a_limit(limit: dict[str, int], tmp_path: Path) -> None:
+    """The quick level is won, the others meet the limit. They are unfinished, so they are not won."""
+
+    def answer(messages: list[ChatMessage]) -> str:
+        is_quick = "S.n\n" in messages[1].text
+        if "time_limit" in limit and not is_quick:
+            time.sleep(1.5)
+        return "ACTION: right"
+
+    log = run(nut_task(tmp_path, max_steps=20, mode="contextual"), answer, tmp_path, max_samples=1, **limit)
+    assert log.samples is not None and log.results is not None
+    assert any(sample.limit for sample in log.samples)
+    for score in log.results.scores:
+        assert (score.scored_samples, score.unscored_samples or 0) == (3, 0), score.name
+    found = metrics(log)
+    open_samples = [sample for sample in log.samples if sample.scores and sample.scores["unfinished"].value == 1.0]
+    assert found["unfinished"] == {"count": len(open_samples), "mean": pytest.approx(len(open_samples) / 3)}
+    assert 0 < len(open_samples) < 3 and found["win"]["mean"] == pytest.approx(1 / 3)
+    for sample in open_samples:
+        assert sample.scores is not None and sample.scores["win"].value == 0.0
+        assert "unfinished" in (sample.scores["win"].answer or "")
+        assert "so not won" in (sample.scores["win"].explanation or "")
+
+
+@solver
+def talkative() -> Solver:
+    async def solve(state: TaskState, generate: Generate) -> TaskState:
+        return await generate(state)
+
+    return solve
+
+
+def test_another_solver_receives_the_observation(tmp_path: Path) -> None:
+    shown = list[ChatMessage]()
+
+    def answer(messages: list[ChatMessage]) -> str:
+        shown.extend(messages)
+        return "ACTION: right"
+
+    task = nut_task(tmp_path, levels="0")
+    [sample] = task.dataset
+    log = run(task, answer, tmp_path, solver=talkative())
+    assert [message.text for message in shown] == [message.text for message in sample.input]
+    assert "squirrel" in shown[0].text + shown[-1].text and "S" in shown[-1].text
+    first = list[ChatMessage]()
+    run(task, lambda messages: first.extend(messages) or "ACTION: right", tmp_path, limit=1)
+    assert [message.text for message in first[:2]] == [message.text for message in shown], "the solver of the suite"
+    assert metrics(log)["win"]["mean"] == 0.0 and metrics(log)["unfinished"] == {"count": 1.0, "mean": 1.0}
+
+
+def test_an_agent_of_its_own_answers_the_requests(tmp_path: Path) -> None:
+    async def agent(messages: list[ChatMessage]) -> ModelOutput:
+        thought = await get_model().generate([*messages, ChatMessageUser(content="Think first.")])
+        return ModelOutput.from_content("agent", f"ACTION: {thought.completion}")
+
+    log = run(nut_task(tmp_path, levels=[0, 1]), lambda _: "right", tmp_path, solver=tasks.play(answer=agent))
+    assert metrics(log)["win"]["mean"] == 1.0 and metrics(log)["unfinished"]["count"] == 0
+
+
+@pytest.mark.parametrize("levels", [[0, 1], "0,1", ["0", "1"]])
+def test_levels_are_selected_in_every_form(levels: Any, tmp_path: Path) -> None:
+    task = nut_task(tmp_path, levels=levels)
+    assert [sample.metadata["levels"] for sample in task.dataset] == [[0], [1]]
+
+
+def test_unknown_games_and_levels_are_named(tiny: Path, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="there is no game `foo` in the corpus; the games are belfry-sling"):
+        tasks.corpus(games="hailglass,foo")
+    with pytest.raises(ValueError, match="there is no game `hailglas` in the corpus; did you mean `hailglass`"):
+        tasks.corpus(games=["hailglas"])
+    with pytest.raises(ValueError, match="there is no level 9; the levels are 0, 1, 2, 3, 4"):
+        tasks.corpus(games="hailglass", levels=[0, 9])
+    with pytest.raises(ValueError, match="`levels` must be numbers, such as 0,1, not 'easy'"):
+        nut_task(tmp_path, levels="easy")
+    [name, *_] = [game.id for game in ia.open_snapshot(tiny).games()]
+    with pytest.raises(ValueError, match=f"there is no game `{name}x` in .*; did you mean `{name}`"):
+        tasks.snapshot(str(tiny), games=f"{name}x")
+
+
+def test_wrong_settings_are_refused_before_an_episode_starts(tmp_path: Path) -> None:
+    for wrong in ({"commit": "abc"}, {"max_steps": 0}, {"reasks": -1}, {"track": "tolled"}, {"mode": "x"}):
+        with pytest.raises(ValueError):
+            nut_task(tmp_path, **wrong)
+    assert nut_task(tmp_path, seed=7).dataset[0].metadata["seed"] == "7"
 
 
 def test_a_retry_asks_for_no_answer_twice(tmp_path: Path) -> None:
@@ -240,8 +324,9 @@ def test_a_retry_asks_for_no_answer_twice(tmp_path: Path) -> None:
 
 def test_the_entry_point_is_known(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "inspect_ai", "eval", "infinite_arcade/corpus", "--model", "scripted/up-left"]
-    flags = ["-T", "games=hailglass", "-T", "levels=0", "-T", "max_steps=2", "--display", "none", "--log-dir", str(tmp_path)]
+    flags = ["-T", "games=hailglass", "-T", "levels=0,1", "-T", "max_steps=2", "--display", "none", "--log-dir", str(tmp_path)]
     subprocess.run([*command, *flags], check=True, cwd=tmp_path)
     [path] = tmp_path.glob("*.eval")
     log = read_eval_log(str(path))
     assert log.status == "success" and log.eval.task == "infinite_arcade/corpus"
+    assert log.samples is not None and len(log.samples) == 2

@@ -23,7 +23,9 @@ from infinite_arcade import ray as cluster
 
 
 @pytest.fixture
-def two_nodes() -> Iterator[tuple[Any, Any]]:
+def two_nodes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Any, Any]]:
+    # Workers import from their working folder first, and the sources beside these tests may have no extension.
+    monkeypatch.chdir(tmp_path)
     nodes = Cluster(initialize_head=True, head_node_args={"num_cpus": 0, "object_store_memory": 10**8})
     doomed = nodes.add_node(num_cpus=1, object_store_memory=10**8)
     nodes.add_node(num_cpus=1, object_store_memory=10**8)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -48,3 +49,14 @@ def test_releases(tiny: Path) -> None:
     assert games.num_rows == len(list(release.games()))
     assert levels.num_rows == sum(games["levels"].to_pylist())
     assert all(levels["text"].to_pylist())
+    cards = [level for game in release.games() for level in game.card["levels"]]
+    assert levels["difficulty_asked"].to_pylist() == [card["difficulty"] for card in cards]
+    assert levels["difficulty"].to_pylist() == [None] * levels.num_rows, "the recipe does not measure it"
+
+
+def test_measured_difficulty_is_shown(tiny: Path, tmp_path: Path) -> None:
+    [game, *_] = ia.open_snapshot(tiny).games()
+    for level in game.card["levels"]:
+        level["ladder"] = {"difficulty": "hard"}
+    release = SimpleNamespace(games=lambda: [game])
+    assert set(tables.levels(release)["difficulty"].to_pylist()) == {"hard"}

@@ -63,13 +63,9 @@ def test_an_episode_is_played_and_rewarded(server: str, tmp_path: Path) -> None:
     (tmp_path / "game.vgdl").write_text(NUT)
     (tmp_path / "lvl0.txt").write_text("S n")
     (tmp_path / "lvl1.txt").write_text("n S")
-    config = arcade.ArcadeEnvConfig.model_validate(
-        {
-            "taskset": {"id": "infinite-arcade-verifiers", "source": str(tmp_path), "max_steps": 4},
-            "player": {"harness": {"id": "null"}, "runtime": {"type": "subprocess"}},
-        }
-    )
-    env = arcade.ArcadeEnv(config)
+    # The lines of the README, which need no account and no sandbox.
+    taskset = {"id": "infinite-arcade-verifiers", "source": str(tmp_path), "max_steps": 4}
+    env = arcade.ArcadeEnv(arcade.ArcadeEnvConfig.model_validate({"taskset": taskset}))
     tasks = list(env.taskset)
     game = ia.load(tmp_path)
     assert [task.data.id for task in tasks] == [f"{level.digest}-0" for level in game.levels]
@@ -90,3 +86,23 @@ def test_an_episode_is_played_and_rewarded(server: str, tmp_path: Path) -> None:
         with pytest.raises(ia.LogError):
             arcade.replayed(task.data.info, log.replace('"action":"right"', '"action":"nil"', 1))
     assert any(len(conversation) >= 4 for conversation in Server.conversations)
+
+
+def tasks(**config: Any) -> list[Any]:
+    taskset = {"id": "infinite-arcade-verifiers", "source": "corpus", **config}
+    return list(arcade.ArcadeEnv(arcade.ArcadeEnvConfig.model_validate({"taskset": taskset})).taskset)
+
+
+def test_unknown_games_and_levels_are_named() -> None:
+    with pytest.raises(ValueError, match="there is no game `nope` in the corpus; the games are"):
+        tasks(games=["hailglass", "nope"])
+    with pytest.raises(ValueError, match="there is no level 9; the levels are 0, 1, 2, 3, 4"):
+        tasks(games=["hailglass"], levels=[9])
+
+
+def test_keys_do_not_depend_on_the_selection() -> None:
+    [one] = tasks(games=["hailglass"], levels=[3])
+    several = tasks(games=["hailglass"], runs=2)
+    keys = [task.key for task in several]
+    assert one.key in keys and len(set(keys)) == len(keys)
+    assert one.key != tasks(games=["hailglass"], levels=[3], seed=5)[0].key

@@ -185,6 +185,7 @@ impl Maker<'_> {
         let attempts: Vec<Attempt> = (0..self.order.count)
             .into_par_iter()
             .map(|number| {
+                self.progress.start();
                 let attempt = make(number, &BTreeSet::new());
                 if attempt.0.is_some() {
                     self.progress.made(&format!("level {number}"));
