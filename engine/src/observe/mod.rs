@@ -6,7 +6,7 @@ use crate::game::Game;
 use crate::limits::MAX_SEEN;
 use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::SpriteClass;
-use crate::rules::effects::EffectSummary;
+use crate::rules::effects::{Ending, Side, Target};
 use crate::rules::{Outcome, SpriteType, Timed};
 use crate::state::State;
 use crate::world::{Sprite, Timer, flag};
@@ -313,12 +313,13 @@ impl Game {
             return None;
         }
         let effects = &self.0.effects[usize::from(timed.effect)].summary.effects;
-        let event = effects.iter().find_map(|effect| match effect {
-            EffectSummary::BecomeAll(of, _) => Some((*of, Event::Turns)),
-            EffectSummary::KillAll(of) => Some((*of, Event::Ends)),
-            EffectSummary::Become(_) => Some((timed.target?, Event::Turns)),
-            EffectSummary::Make(_) => Some((timed.target?, Event::Makes)),
-            _ => None,
+        let event = effects.iter().find_map(|effect| match effect.ending() {
+            Some((Target::All(of), Ending::Turned)) => Some((of, Event::Turns)),
+            Some((Target::All(of), Ending::Killed)) => Some((of, Event::Ends)),
+            Some((Target::Side(Side::First), Ending::Turned)) => Some((timed.target?, Event::Turns)),
+            Some(_) => None,
+            None if effect.makes().is_empty() => None,
+            None => Some((timed.target?, Event::Makes)),
         });
         event.filter(|(stype, _)| !self.is_hidden(*stype))
     }

@@ -13,7 +13,7 @@ const BROKEN: &str = "```vgdl\nBasicGame\n    SpriteSet\n        plum > Immovabe
 
 /// The answers of a draft that is given up.
 fn answer(number: usize) -> Response {
-    Response::completion(if number % 5 == 0 { IDEA } else { BROKEN })
+    Response::completion(if number.is_multiple_of(5) { IDEA } else { BROKEN })
 }
 
 fn json(output: &Output) -> Value {

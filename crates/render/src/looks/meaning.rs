@@ -543,7 +543,9 @@ fn own_meaning(analysis: &Analysis, stype: SpriteType, form: Form, glyph: Glyph)
         Glyph::Spring if blocks(analysis, stype) => {
             touches::given(analysis, stype).map_or_else(plain, |name| format!("gives {name}"))
         }
-        Glyph::Socket | Glyph::Slot => remarks::socket(analysis, stype).unwrap_or_else(|| unwon(analysis, stype)),
+        Glyph::Socket | Glyph::Slot => {
+            remarks::socket(analysis, stype).unwrap_or_else(|| unwon(analysis, stype))
+        }
         Glyph::Crate => remarks::destinations(analysis, stype).unwrap_or_else(plain),
         Glyph::Exit | Glyph::Treasure => goal(analysis, stype, glyph.meaning()),
         Glyph::Gate => match requirement(analysis, stype) {
