@@ -411,3 +411,34 @@ fn prey_that_no_known_way_removes_is_not_to_be_caught() {
     let timed = game(&sprites, &["moth EOS > killSprite"], &ends);
     check(&timed, &[("moth", "must go for the win, wanders")]);
 }
+
+#[test]
+fn what_only_exists_within_a_swap_is_not_listed() {
+    let sprites = ["lever > Immovable", "bolt > Immovable", "slot > Immovable", "door > Door"];
+    let rules = [
+        "lever hero > transformToAll stype=bolt stypeTo=turning",
+        "lever hero > transformToAll stype=slot stypeTo=bolt",
+        "lever hero > transformToAll stype=turning stypeTo=slot",
+        "door hero > killSprite",
+    ];
+    let source = game(&sprites, &[], WIN).description().clone();
+    let source = engine::syntax::print(&source)
+        .replace("SpriteSet\n", "SpriteSet\n        turning > Flicker limit=0\n")
+        .replace("InteractionSet\n", &format!("InteractionSet\n        {}\n", rules.join("\n        ")));
+    let game = Game::from_source(&source).unwrap();
+    let looks = Looks::of(&Analysis::of(&game));
+    let shown: Vec<&str> = looks.shown().map(|stype| game.name(stype)).collect();
+    assert!(shown.contains(&"bolt") && !shown.contains(&"turning"), "{shown:?}");
+}
+
+#[test]
+fn what_heals_is_not_called_merely_solid() {
+    let sprites = ["oven > Immovable", "snow > Immovable", "door > Door"];
+    let rules = [
+        "hero oven > addHealthPointsToMax value=99",
+        "hero oven > stepBack",
+        "hero snow > subtractHealthPoints",
+        "door hero > killSprite",
+    ];
+    check(&game(&sprites, &rules, WIN), &[("oven", "heals you, solid")]);
+}

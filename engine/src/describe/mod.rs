@@ -20,6 +20,7 @@ pub use words::plural;
 
 use crate::analysis::Analysis;
 use crate::game::Game;
+use crate::rules::SpriteType;
 use std::fmt;
 
 /// A game in plain English, as sections of sentences.
@@ -106,6 +107,12 @@ impl fmt::Display for Guide {
         }
         Ok(())
     }
+}
+
+/// Returns the types whose sprites exist only while a few lines turn two types into each other, so that no player ever
+/// sees one.
+pub fn passing_types(analysis: &Analysis) -> Vec<SpriteType> {
+    swap::Swap::betweens(analysis)
 }
 
 /// Returns a game's rules in plain English: all sections of its [`Guide`] except its kind.

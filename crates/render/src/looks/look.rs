@@ -138,7 +138,9 @@ impl Looks {
             }
             looks[stype.index()] = look;
         }
-        let shown: Vec<SpriteType> = game.sprite_types().filter(is_shown).collect();
+        let passing = engine::describe::passing_types(analysis);
+        let is_seen = |stype: &SpriteType| is_shown(stype) && !passing.contains(stype);
+        let shown: Vec<SpriteType> = game.sprite_types().filter(is_seen).collect();
         let wounds = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { .. });
         let health = analysis.encounters().iter().any(|encounter| encounter.effects.iter().any(wounds));
         let holdings = health || !analysis.resources().is_empty();

@@ -219,7 +219,7 @@ fn solid(analysis: &Analysis, stype: SpriteType) -> String {
     if let Some(clearers) = cleared {
         return format!("solid, cleared by {clearers}");
     }
-    if let Some(made) = touches::makes(analysis, stype) {
+    if let Some(made) = touches::makes(analysis, stype).or_else(|| touches::health(analysis, stype)) {
         return format!("{made}, solid");
     }
     let changers = remarks::names(analysis, &remarks::reachable_removers(analysis, stype));
