@@ -105,7 +105,13 @@ pub(super) fn is_idle(merged: &Merged) -> bool {
 /// Returns `true` if a goal can be achieved. Either the ending takes or requires the goal's type, or a different
 /// mechanic removes it. A type that only has to be removed must exist from the beginning and must not be produced.
 fn has_honest_goal(merged: &Merged) -> bool {
-    if merged.has(Tag::Goal) && merged.has(Tag::Made) && !merged.has(Tag::Tool) {
+    // An ending that is lost with its last goal on the board would be lost before another mechanic produces more.
+    let can_run_out =
+        |(_, port): &(PortId, &Port)| port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Lost);
+    if merged.has(Tag::Goal)
+        && merged.has(Tag::Made)
+        && (!merged.has(Tag::Tool) || merged.ports.iter().any(can_run_out))
+    {
         return false;
     }
     let is_only_counted = |port: &Port| {

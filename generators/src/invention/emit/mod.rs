@@ -66,7 +66,7 @@ pub(in crate::invention) fn own_name(mechanic: usize, own: &str) -> String {
 
 /// Returns the internal name of a lost goal's marker.
 pub(in crate::invention) fn lost_name(class: usize) -> String {
-    format!("lost{class}")
+    format!("type{class}Lost")
 }
 
 /// The effects that remove the first sprite whenever two sprites meet.

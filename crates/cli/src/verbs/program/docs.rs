@@ -52,12 +52,13 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// The pages about subcommands that have no page of their own name, most relevant first.
-const VERBS: [(&str, &[&str]); 23] = [
+const VERBS: [(&str, &[&str]); 24] = [
     ("calibrate", &["calibrate", "scale"]),
     ("clean", &["command-line"]),
     ("completions", &["command-line"]),
     ("contamination", &["memory"]),
     ("describe", &["prompts"]),
+    ("design", &["model-designs"]),
     ("docs", &["command-line"]),
     ("fmt", &["lsp"]),
     ("gallery", &["studio"]),

@@ -116,7 +116,7 @@ impl RequestedDesigner {
                 let mailbox = Mailbox::open_as(path, player, digest, args.resume, console.remarks())?;
                 let mailbox = Arc::new(mailbox);
                 console.remark(format_args!(
-                    "questions appear in {}; `{}` lists them, and `arcade docs design` describes how to answer them",
+                    "questions appear in {}; `{}` lists them, and `arcade docs model-designs` describes how to answer them",
                     path.in_message(),
                     shell::command([Path::new("mailbox"), path, Path::new("--list")])
                 ));

@@ -21,7 +21,7 @@ use validators::{Criteria, Tier};
 /// Each stage comes with a short manual of VGDL. After each answer, the model receives the problems in its files, the
 /// verdicts and the gates, in the words of `arcade validate`, and may correct its answer three times. OUT gets the
 /// accepted games in games/, which every command accepts, with the provenance of each; the log of all questions and
-/// answers; and results.json. See `arcade docs design`.
+/// answers; and results.json. See `arcade docs model-designs`.
 ///
 /// Exit status 0: all drafts were written, accepted or not. 1: a cap was reached first (raise it and use --resume), or a replay
 /// differs. 2: malformed input. 3: network, server or disk failed; --resume continues. 128 + signal, such as 130 for
