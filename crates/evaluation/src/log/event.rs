@@ -193,7 +193,7 @@ pub struct Reply {
 
 impl Reply {
     /// Creates the record of an answer. The action read from the answer is not yet part of the record.
-    pub(crate) fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
+    pub fn of(step: u64, attempt: u32, class: ReplyClass, answer: ChatReply) -> Reply {
         let ChatReply { text, reasoning, finish, usage, served_by, failures, latency_ms, cached } = answer;
         let latency_ms = (latency_ms * 1000.0).round() / 1000.0;
         Reply {

@@ -10,6 +10,7 @@ pub use builtin::{Contestant, Replay};
 pub use model::ModelPlayer;
 pub use touching::Touching;
 
+use crate::client::{ChatError, ChatErrorKind};
 use crate::log::{Event, Journal};
 use crate::predictions::Predicted;
 use crate::run::Task;
@@ -145,10 +146,25 @@ pub enum Halt {
     Log(String),
 }
 
+impl From<ChatError> for Halt {
+    fn from(error: ChatError) -> Halt {
+        match error.kind {
+            ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
+            ChatErrorKind::Budget => Halt::Budget(error.message),
+            ChatErrorKind::Rejected => match error.failures.last().and_then(|failure| failure.status) {
+                // These codes mean that only this request is at fault, whereas a wrong key or model affects
+                // all requests.
+                Some(400 | 413 | 422) => Halt::Unfit(error.message),
+                _ => Halt::Rejected(error.message),
+            },
+        }
+    }
+}
+
 impl Halt {
     /// Returns the event to record in the log, or `None` if the log itself has failed or there is nothing to
     /// record.
-    pub(crate) fn event(&self) -> Option<Event> {
+    pub fn event(&self) -> Option<Event> {
         let reason = match self {
             Halt::Infrastructure(_) => "infrastructure",
             Halt::Budget(_) => "budget",

@@ -1,7 +1,7 @@
 //! A language model as a player: its prompts, its answers, and their interpretation.
 
 use crate::answer::Reading;
-use crate::client::{ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model};
+use crate::client::{ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model};
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, Reply, ReplyClass};
 use crate::player::{Agent, Choice, Halt, Said, Validity};
@@ -173,16 +173,7 @@ impl ModelPlayer {
             decoding: self.decoding.clone(),
             sample: self.samples.child("step", step).child("attempt", u64::from(attempt)),
         };
-        self.model.chat(&request).map_err(|error| match error.kind {
-            ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
-            ChatErrorKind::Budget => Halt::Budget(error.message),
-            ChatErrorKind::Rejected => match error.failures.last().and_then(|failure| failure.status) {
-                // These codes mean that only this request is at fault, whereas a wrong key or model affects
-                // all requests.
-                Some(400 | 413 | 422) => Halt::Unfit(error.message),
-                _ => Halt::Rejected(error.message),
-            },
-        })
+        self.model.chat(&request).map_err(Halt::from)
     }
 
     /// Returns a message's index in the log. Each message is added to the log at its first use.

@@ -63,6 +63,21 @@ impl Mailbox {
         resume: bool,
         notices: Notices,
     ) -> Result<Mailbox, EvaluationError> {
+        Mailbox::open_as(folder, &settings.entrant.name, digest(settings), resume, notices)
+    }
+
+    /// Opens a mailbox like [`open`](Mailbox::open), for work other than an evaluation. `player` is the name of
+    /// whoever answers, and `work` is a digest of the settings of the work.
+    ///
+    /// # Errors
+    /// Returns an error in the same cases as [`open`](Mailbox::open).
+    pub fn open_as(
+        folder: &Path,
+        player: &str,
+        work: Digest,
+        resume: bool,
+        notices: Notices,
+    ) -> Result<Mailbox, EvaluationError> {
         let wrong = |what: &str| EvaluationError::malformed(folder, what);
         if fs::metadata(folder).is_ok_and(|found| !found.is_dir()) {
             return Err(wrong("a mailbox is a folder, but this is a file; choose a different path"));
@@ -71,8 +86,8 @@ impl Mailbox {
         let marker: Option<Marker> = marker(folder)?;
         let others = names(folder)?.into_iter().filter(|name| name != MARKER_FILE);
         let is_empty = others.count() == 0;
-        let player = settings.entrant.name.clone();
-        let own = Marker { format: MAILBOX_FORMAT, player: player.clone(), evaluation: digest(settings) };
+        let player = player.to_owned();
+        let own = Marker { format: MAILBOX_FORMAT, player: player.clone(), evaluation: work };
         match &marker {
             None if !is_empty => {
                 return Err(wrong("the folder is not empty and not a mailbox; choose a new or empty folder"));
@@ -126,8 +141,15 @@ impl Mailbox {
         if tally.open > 0 {
             return Ok(());
         }
-        let finished = Finished { episodes: tally.episodes, won: tally.won };
-        write_data(&self.folder, FINISHED_FILE, &finished)
+        self.finish_with(&Finished { episodes: tally.episodes, won: tally.won })
+    }
+
+    /// Informs the players that the work is over, with the given result.
+    ///
+    /// # Errors
+    /// Returns an error if the file cannot be written.
+    pub fn finish_with(&self, finished: &Finished) -> Result<(), EvaluationError> {
+        write_data(&self.folder, FINISHED_FILE, finished)
     }
 }
 

@@ -140,6 +140,37 @@ impl Agent for MailboxPlayer {
     }
 }
 
+impl Mailbox {
+    /// Asks one question of a conversation that is not an episode, and waits for the answer. The files are in the
+    /// folder `conversation` of the mailbox. An answer at the same address that was given earlier is used at once.
+    ///
+    /// # Errors
+    /// Returns an error if a file cannot be read or written, or if [`stop`](Mailbox::stop) was called.
+    pub fn ask(
+        self: &Arc<Self>,
+        conversation: &str,
+        address: Address,
+        messages: &[ChatMessage],
+    ) -> Result<ChatReply, ChatError> {
+        let folder = EpisodeFolder::named(self.clone(), conversation);
+        *folder.open.lock().expect("no holder panics") = Open { address, actions: Vec::new() };
+        folder.answer(messages).map_err(|error| unanswered(&error))
+    }
+
+    /// Removes the files of a conversation's open question, and writes its result and its last message.
+    ///
+    /// # Errors
+    /// Returns an error if a file cannot be written.
+    pub fn end(
+        self: &Arc<Self>,
+        conversation: &str,
+        result: &EpisodeResult,
+        text: &str,
+    ) -> Result<(), EvaluationError> {
+        EpisodeFolder::named(self.clone(), conversation).finish(result, text)
+    }
+}
+
 /// Returns the name of an episode's folder.
 fn episode_of(task: &Task<'_>) -> String {
     let name = task.file_name();
@@ -148,9 +179,12 @@ fn episode_of(task: &Task<'_>) -> String {
 
 impl EpisodeFolder {
     fn of(mailbox: Arc<Mailbox>, task: &Task<'_>) -> EpisodeFolder {
-        let episode = episode_of(task);
-        let path = mailbox.folder.join(&episode);
-        EpisodeFolder { mailbox, episode, path, open: Mutex::default() }
+        EpisodeFolder::named(mailbox, &episode_of(task))
+    }
+
+    fn named(mailbox: Arc<Mailbox>, episode: &str) -> EpisodeFolder {
+        let path = mailbox.folder.join(episode);
+        EpisodeFolder { mailbox, episode: episode.to_owned(), path, open: Mutex::default() }
     }
 
     /// Creates the episode's folder unless it already exists.
@@ -290,12 +324,12 @@ impl EpisodeFolder {
 
 impl Model for EpisodeFolder {
     fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError> {
-        self.answer(&request.messages).map_err(|error| ChatError {
-            kind: ChatErrorKind::Infrastructure,
-            message: told(&error),
-            failures: Vec::new(),
-        })
+        self.answer(&request.messages).map_err(|error| unanswered(&error))
     }
+}
+
+fn unanswered(error: &EvaluationError) -> ChatError {
+    ChatError { kind: ChatErrorKind::Infrastructure, message: told(error), failures: Vec::new() }
 }
 
 /// The state of an answer file.
