@@ -30,3 +30,4 @@ mod trust;
 mod usage;
 mod validate;
 mod well;
+mod world_model;
