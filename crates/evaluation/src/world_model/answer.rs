@@ -22,7 +22,9 @@ pub(super) enum Answer {
 
 /// Shortens an answer to slightly more than the limit for answers, so that a huge answer is neither logged nor repeated.
 pub(super) fn shorten(answer: &mut String) {
-    answer.truncate(answer.floor_char_boundary(MAX_ANSWER + 8));
+    let longest = answer.len().min(MAX_ANSWER + 8);
+    let end = (0..=longest).rev().find(|&at| answer.is_char_boundary(at));
+    answer.truncate(end.unwrap_or_default());
 }
 
 /// Reads an answer: a game, or actions if `left` actions are left for exploring.

@@ -2,7 +2,9 @@
 
 use evaluation::client::{ChatMessage, ChatReply, Finish};
 use evaluation::player::mailbox::Address;
-use evaluation::world_model::{Examined, Hints, TransitionKind, WorldModelSettings, WorldModelTask, examine};
+use evaluation::world_model::{
+    Examined, Hints, TransitionKind, WorldModelSettings, WorldModelTask, examine, induce,
+};
 use evaluation::{Halt, Journal, Subject, SubjectFacts};
 
 const GAME: &str = "BasicGame
@@ -217,4 +219,17 @@ fn an_examinee_may_explore() {
     assert!(asked[4].contains("no actions left"), "{}", asked[4]);
     assert_eq!((examined.attempts, examined.explored), (3, 10));
     assert_eq!(examined.score.total().state, examined.score.total().transitions);
+}
+
+/// The reference examinee finds the rules of all events in the recordings of a small game. One rule concerns an event
+/// that occurs only in the held-out recordings.
+#[test]
+fn the_reference_examinee_learns_a_small_game() {
+    let task = task();
+    let game = induce(&task);
+    assert_eq!(game, induce(&task));
+    let examined = examined(&task, &game);
+    let total = examined.score.total();
+    assert!(4 * total.state > 3 * total.transitions, "{game}");
+    assert_eq!(examined.score.planner.wins, 1, "{game}");
 }

@@ -29,7 +29,7 @@ use std::sync::Arc;
 /// writes the game in VGDL. The score is the percentage of other recorded steps that its game reproduces exactly: the
 /// board, and the whole observable state. A fixed planner also plans wins with its game and plays them in the true game.
 /// Only deterministic levels are used, at most three per game. OUT gets the questions and answers in logs/, the player's
-/// games in games/, and results.json. See `arcade docs world-models`.
+/// games in games/, and results.json. See `arcade docs world-model`.
 ///
 /// Exit status 0: all games were examined. 3: a file could not be written; --resume continues.
 ///

@@ -13,6 +13,10 @@ const COOLDOWNS: [u32; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
 /// The lifetimes of flickers to try, in ticks.
 const LIFETIMES: [u32; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20];
 
+/// Effects that many games use. Of equally good effects, they are preferred.
+const COMMON: [&str; 6] =
+    ["killSprite", "stepBack", "killBoth", "collectResource", "bounceForward", "transformTo"];
+
 /// Returns the changed guesses, the most plausible ones first.
 pub(super) fn changes(
     guess: &Guess,
@@ -77,14 +81,23 @@ fn rules(guess: &Guess, words: &Words, clues: &Clues) -> Vec<Guess> {
             clues.suspects.contains(first) || clues.suspects.iter().any(|suspect| suspect == second)
         })
         .collect();
-    let effects: Vec<String> = words.effects.iter().flat_map(|effect| effects(effect, clues)).collect();
+    let effects: Vec<String> = words
+        .effects
+        .iter()
+        .sorted_by_key(|effect| COMMON.iter().position(|common| common == effect).unwrap_or(COMMON.len()))
+        .flat_map(|effect| effects(effect, clues))
+        .collect();
     let mut changed = Vec::new();
     for (effect, (first, second)) in effects.iter().cartesian_product(&pairs) {
         let rule = Rule { first: (*first).clone(), second: (*second).to_owned(), effect: effect.clone() };
         let is_same = |other: &&Rule| (&other.first, &other.second) == (&rule.first, &rule.second);
         let mut with = guess.clone();
         with.rules.push(rule.clone());
-        if guess.rules.iter().any(|other| is_same(&other)) {
+        if let Some(at) = guess.rules.iter().position(|other| is_same(&other)) {
+            // After a rule that moves the first sprite away, later rules of the pair do not run.
+            let mut before = guess.clone();
+            before.rules.insert(at, rule.clone());
+            changed.push(before);
             let mut instead = guess.clone();
             instead.rules.retain(|other| !is_same(&other));
             instead.rules.push(rule.clone());
@@ -134,7 +147,9 @@ fn values(key: &str, kind: ParameterKind, clues: &Clues) -> Vec<String> {
 fn classes(guess: &Guess, words: &Words, clues: &Clues, is_avatar: &dyn Fn(&str) -> bool) -> Vec<Guess> {
     let mut changed = Vec::new();
     for (at, (name, old)) in guess.types.iter().enumerate() {
-        if !clues.suspects.contains(name) && !is_avatar(name) {
+        // A sprite may appear too early because of the sprite that makes it.
+        let makes = |suspect: &String| old.split(['=', ' ']).any(|word| word == suspect);
+        if !clues.suspects.contains(name) && !is_avatar(name) && !clues.suspects.iter().any(makes) {
             continue;
         }
         for end in [0, guess.types.len() - 1].into_iter().filter(|&end| end != at) {
@@ -154,12 +169,29 @@ fn classes(guess: &Guess, words: &Words, clues: &Clues, is_avatar: &dyn Fn(&str)
                 if class != *old {
                     let mut with = guess.clone();
                     with.types[at].1 = class;
+                    changed.extend(moving(&with, &with.types[at].1, clues));
                     changed.push(with);
                 }
             }
         }
     }
     changed
+}
+
+/// Makes the sprites that a producer makes move at once. A sprite can move in the step in which it appears, so that a
+/// change of its maker alone would not help.
+fn moving(guess: &Guess, maker: &str, clues: &Clues) -> Vec<Guess> {
+    let is_producer = ["SpawnPoint", "Bomber"].iter().any(|class| maker.starts_with(class));
+    let is_made = |name: &str| maker.split(['=', ' ']).any(|word| word == name);
+    let made = guess.types.iter().position(|(name, _)| clues.appearing.contains(name) && is_made(name));
+    let Some(at) = made.filter(|_| is_producer && !maker.contains("cooldown")) else { return Vec::new() };
+    let moved = DIRECTIONS.iter().map(|way| {
+        let mut moved = guess.clone();
+        let (name, _) = moved.types.remove(at);
+        moved.types.insert(0, (name, format!("Missile orientation={way}")));
+        moved
+    });
+    moved.collect()
 }
 
 /// Returns the parameters of a class to try, as texts to append.

@@ -1,6 +1,6 @@
 //! The sprite types and amounts that may be involved in a deviation.
 
-use super::fit::Deviation;
+use super::fit::{Deviation, difference};
 use crate::world_model::task::WorldModelTask;
 use engine::Outcome;
 use std::collections::BTreeSet;
@@ -24,8 +24,6 @@ pub(super) struct Clues {
     /// The names of types whose last sprite disappears in the step.
     pub(super) vanishing: Vec<String>,
 }
-
-type Board = [(u32, u16)];
 
 impl Clues {
     pub(super) fn of(
@@ -73,11 +71,4 @@ impl Clues {
             vanishing,
         }
     }
-}
-
-/// Returns the entries that are on only one of two boards.
-fn difference(one: &Board, other: &Board) -> Vec<(u32, u16)> {
-    let missing = |from: &Board, entry: &(u32, u16)| from.binary_search(entry).is_err();
-    let first = one.iter().filter(|entry| missing(other, entry));
-    first.chain(other.iter().filter(|entry| missing(one, entry))).copied().collect()
 }

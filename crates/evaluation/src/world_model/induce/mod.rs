@@ -2,9 +2,9 @@
 //!
 //! The examinee begins with a game in which nothing happens, except that the player loses if its sprite disappears. It
 //! looks at the earliest deviation of an episode and tries all classes, rules and terminations for the sprite types near
-//! that deviation. It keeps the change that explains the most transitions before the first deviations; of equally good
-//! changes, the one with the fewest words. It stops if no single change explains more transitions. Like any examinee,
-//! it uses only the question's content.
+//! that deviation. It keeps the change that explains the most transitions before the first deviations; of these, the one
+//! with the fewest differences after the first deviations; of equally good ones, the one with the fewest words. It
+//! stops if no single change is better. Like any examinee, it uses only the question's content.
 
 mod changes;
 mod clues;
@@ -15,15 +15,16 @@ use super::prompt;
 use super::task::{Words, WorldModelTask, candidates};
 use changes::changes;
 use clues::Clues;
-use fit::{Deviation, Fit};
+use fit::{Deviation, Fit, Quality};
 use guess::Guess;
 use rayon::prelude::*;
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 /// The maximum number of guesses to try in total.
-const MAX_GUESSES: usize = 60_000;
+const MAX_GUESSES: usize = 100_000;
 
-/// Returns the text of a game that explains many of the task's recordings. Cost: at most 60,000 guesses, each of which
+/// Returns the text of a game that explains many of the task's recordings. Cost: at most 100,000 guesses, each of which
 /// is compiled and replays some of the recordings. The result does not depend on the number of threads.
 pub fn induce(task: &WorldModelTask) -> String {
     let words = task.words().unwrap_or_else(candidates);
@@ -96,7 +97,7 @@ impl<'a> Search<'a> {
         deviating.min_by_key(|(number, at, _)| (*number, *at)).map(|(_, at, deviation)| (at, deviation))
     }
 
-    /// Returns the best change of a guess that postpones the deviation of an episode and improves the total.
+    /// Returns the best change of a guess that explains an episode better, if it improves the total.
     fn improve(&mut self, guess: &Guess, episode: usize, deviation: &Deviation<'_>) -> Option<Guess> {
         let level = self.task.recorded[episode].level;
         let columns = self.task.masked.levels[level].level.columns() as u32;
@@ -105,24 +106,24 @@ impl<'a> Search<'a> {
         let mut changed = changes(guess, &self.words, &clues, &is_avatar);
         changed.truncate(MAX_GUESSES - self.tried);
         self.tried += changed.len();
-        let explained = self.explained(guess, None).unwrap_or(0);
-        let before = Fit::new(self.task, guess)?.follow(&self.task.recorded[episode]).0;
+        let (quality, before) = self.quality(guess, episode, None)?;
         let judged = changed.into_par_iter().enumerate().filter_map(|(at, guess)| {
-            let explained = self.explained(&guess, Some((episode, before)))?;
-            Some((explained, std::cmp::Reverse((guess.words(), at)), guess))
+            let (quality, _) = self.quality(&guess, episode, Some(before))?;
+            Some((quality, Reverse((guess.words(), at)), guess))
         });
-        let best = judged.max_by_key(|(explained, order, _)| (*explained, *order))?;
-        (best.0 > explained).then_some(best.2)
+        let best = judged.max_by_key(|(quality, order, _)| (*quality, *order))?;
+        (best.0 > quality).then_some(best.2)
     }
 
-    /// Returns the number of transitions before the first deviations of all episodes. Returns `None` if the guess does
-    /// not compile, or does not explain more than the given number of transitions of an episode.
-    fn explained(&self, guess: &Guess, more: Option<(usize, usize)>) -> Option<usize> {
-        let fit = Fit::new(self.task, guess)?;
-        if more.is_some_and(|(episode, least)| fit.follow(&self.task.recorded[episode]).0 <= least) {
+    /// Returns the quality of a guess over all episodes, and over one of them. Returns `None` if the guess does not
+    /// compile, or does not explain that episode better than the given quality.
+    fn quality(&self, guess: &Guess, episode: usize, least: Option<Quality>) -> Option<(Quality, Quality)> {
+        let (fit, recorded) = (Fit::new(self.task, guess)?, &self.task.recorded);
+        let own = fit.quality(&recorded[episode]);
+        if least.is_some_and(|least| own <= least) {
             return None;
         }
-        Some(self.task.recorded.iter().map(|recording| fit.follow(recording).0).sum())
+        Some((recorded.iter().map(|recording| fit.quality(recording)).sum(), own))
     }
 }
 
