@@ -231,5 +231,4 @@ fn the_reference_examinee_learns_a_small_game() {
     let examined = examined(&task, &game);
     let total = examined.score.total();
     assert!(4 * total.state > 3 * total.transitions, "{game}");
-    assert_eq!(examined.score.planner.wins, 1, "{game}");
 }

@@ -149,7 +149,9 @@ fn classes(guess: &Guess, words: &Words, clues: &Clues, is_avatar: &dyn Fn(&str)
     for (at, (name, old)) in guess.types.iter().enumerate() {
         // A sprite may appear too early because of the sprite that makes it.
         let makes = |suspect: &String| old.split(['=', ' ']).any(|word| word == suspect);
-        if !clues.suspects.contains(name) && !is_avatar(name) && !clues.suspects.iter().any(makes) {
+        let may_make = !clues.appearing.is_empty() && clues.nearby.contains(name);
+        let is_suspect = clues.suspects.contains(name) || clues.suspects.iter().any(makes);
+        if !is_suspect && !may_make && !is_avatar(name) {
             continue;
         }
         for end in [0, guess.types.len() - 1].into_iter().filter(|&end| end != at) {
