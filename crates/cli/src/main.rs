@@ -110,6 +110,7 @@ verbs! {
         more
         Run: run,
         Mailbox: mailbox,
+        WorldModel: world_model,
         ServePlayer: serve_player,
         #[command(hide = true)]
         PlayerGuard: player_guard,

@@ -30,6 +30,7 @@ mod subject;
 pub mod tokens;
 mod track;
 mod turn;
+pub mod world_model;
 
 pub use commitment::Commitment;
 pub use error::EvaluationError;

@@ -31,3 +31,4 @@ mod trust;
 mod usage;
 mod validate;
 mod well;
+mod world_model;

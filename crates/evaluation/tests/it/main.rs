@@ -15,6 +15,7 @@ mod served;
 mod server;
 mod tracks;
 mod walk;
+mod world_model;
 
 /// Returns `true` if all cases are requested (`cargo xtask sweep`).
 fn sweeping() -> bool {

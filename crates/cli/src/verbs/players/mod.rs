@@ -7,3 +7,4 @@ pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod serve_player;
 pub(crate) mod study;
+pub(crate) mod world_model;
