@@ -60,7 +60,7 @@ fn verbs_in_short(command: &Command) -> String {
         &mut text,
         "help",
         width,
-        &format!("Prints the help of a command. --all adds: {}", others.join(", ")),
+        &format!("Explains a command. --all adds: {}", others.join(", ")),
     );
     text
 }
