@@ -7,7 +7,7 @@ use evaluation::player::mailbox::{Address, EpisodeResult, Mailbox};
 use evaluation::{EvaluationError, Halt};
 use std::sync::Arc;
 
-/// A source of answers: a language model, or whoever answers the files in a mailbox.
+/// A source of answers: a language model, or a mailbox in which a person or a program answers files.
 #[derive(Clone)]
 pub enum Designer {
     /// A language model.
@@ -45,7 +45,7 @@ impl Designer {
         }
     }
 
-    /// Informs whoever answers a mailbox that a conversation is over. Does nothing for models.
+    /// Reports in the mailbox that a conversation is over. Does nothing for models.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written.

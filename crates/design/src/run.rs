@@ -171,7 +171,7 @@ impl<'a> Sequence<'a> {
     }
 }
 
-/// Tells whoever answers a mailbox how the draft ended.
+/// Reports in the mailbox how the draft ended.
 fn end(designer: &Designer, draft: &Draft) -> Result<(), DesignError> {
     let is_accepted = draft.is_accepted();
     let result = EpisodeResult {

@@ -3,6 +3,7 @@
 use crate::errors::{failed, invalid};
 use crate::evaluate::{LevelText, subject};
 use crate::game::Game;
+use crate::interrupt::interruptible;
 use base::Seed;
 use evaluation::Subject;
 use evaluation::questions::{Evidence, Question, QuestionKind, QuestionOrder, draw, is_right};
@@ -28,8 +29,8 @@ pub(crate) fn draw_questions(
         Some(names) => names.iter().map(|name| kind(name)).collect::<PyResult<_>>()?,
     };
     let order = QuestionOrder { kinds, count, seed: Seed::from_text(seed) };
-    py.detach(|| {
-        let questions = draw(&subjects, &order).map_err(failed)?;
+    interruptible(py, move |_| {
+        let questions = draw(&subjects, &order, &mut |_| ()).map_err(failed)?;
         questions.iter().map(|question| serde_json::to_string(question).map_err(failed)).collect()
     })
 }

@@ -17,8 +17,9 @@ use std::collections::BTreeMap;
 /// exploitation in classical planning". Its goal counter consists of the number of sprites that must
 /// disappear or appear, and the score.
 ///
-/// Unlike in the paper, states that are not novel are not pruned. The search is therefore complete: if it finds no
-/// win, there is none. Conditions and costs are the same as for [`a_star`](super::a_star).
+/// Unlike in the paper, states that are not novel are not pruned. The search is therefore complete: if it ends without
+/// a win before its limits are reached, no win exists. Conditions and costs are the same as for
+/// [`a_star`](super::a_star).
 pub fn best_first(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     best_first_until(analysis, pushes, start, limits, &|| false)
 }

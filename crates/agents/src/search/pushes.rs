@@ -63,7 +63,7 @@ impl Need {
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // The sprites that need the most pushes are assumed to be those that remain.
+        // Some sprites may remain. Leaving out those that need the most pushes keeps the estimate admissible.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));

@@ -28,34 +28,49 @@ pub struct QuestionOrder {
 }
 
 /// Draws questions from the levels of games, sorted by kind. A kind has fewer questions than requested if the levels
-/// provide no more, and none if no level is deterministic and fully visible.
+/// provide no more, and none if no level is deterministic and fully visible. `drawn` is called with the number of
+/// questions drawn so far.
 ///
 /// Cost: up to 40,000 forward-model calls for each level, and several short replays or searches for each question.
 ///
 /// # Errors
 /// Returns an error if the prompts of a game cannot be written.
-pub fn draw(subjects: &[Subject], order: &QuestionOrder) -> Result<Vec<Question>, EvaluationError> {
+pub fn draw(
+    subjects: &[Subject],
+    order: &QuestionOrder,
+    drawn: &mut dyn FnMut(usize),
+) -> Result<Vec<Question>, EvaluationError> {
     let games: Vec<QuestionGame<'_>> =
         subjects.par_iter().map(QuestionGame::new).collect::<Result<_, _>>()?;
     let games: Vec<QuestionGame<'_>> = games.into_iter().filter(|game| !game.levels.is_empty()).collect();
     if games.is_empty() {
         return Ok(Vec::new());
     }
-    let of_kind =
-        |&kind: &QuestionKind| draw_kind(&games, kind, order.count, order.seed.child(kind.name(), 0));
-    Ok(order.kinds.iter().flat_map(of_kind).collect())
+    let mut questions = Vec::new();
+    for &kind in &order.kinds {
+        let before = questions.len();
+        let seed = order.seed.child(kind.name(), 0);
+        questions.extend(draw_kind(&games, kind, order.count, seed, &mut |found| drawn(before + found)));
+    }
+    Ok(questions)
 }
 
-fn draw_kind(games: &[QuestionGame<'_>], kind: QuestionKind, count: usize, seed: Seed) -> Vec<Question> {
+fn draw_kind(
+    games: &[QuestionGame<'_>],
+    kind: QuestionKind,
+    count: usize,
+    seed: Seed,
+    found: &mut dyn FnMut(usize),
+) -> Vec<Question> {
     let mut drafts: Vec<Draft> = Vec::new();
     let mut seen = BTreeSet::new();
     let blocks = (count as u64).saturating_mul(ATTEMPTS).div_ceil(BLOCK) + 1;
     for block in 0..blocks {
         let attempts = (block * BLOCK..(block + 1) * BLOCK).into_par_iter();
-        let drawn: Vec<_> = attempts
+        let attempted: Vec<_> = attempts
             .map(|number| attempt(games, kind, &mut seed.child("attempt", number).sampler()))
             .collect();
-        for group in drawn.into_iter().flatten() {
+        for group in attempted.into_iter().flatten() {
             let digests: Vec<Digest> =
                 group.iter().map(|draft| Digest::of(draft.body().as_bytes())).collect();
             if drafts.len() < count && digests.iter().all(|digest| !seen.contains(digest)) {
@@ -63,6 +78,7 @@ fn draw_kind(games: &[QuestionGame<'_>], kind: QuestionKind, count: usize, seed:
                 drafts.extend(group);
             }
         }
+        found(drafts.len().min(count));
         if drafts.len() >= count {
             break;
         }

@@ -38,7 +38,7 @@ fn order(count: usize, seed: &str) -> QuestionOrder {
 
 static QUESTIONS: LazyLock<Vec<Question>> = LazyLock::new(|| {
     let count = if sweeping() { 2000 } else { 24 };
-    draw(&SUBJECTS, &order(count, "questions test")).expect("drawn")
+    draw(&SUBJECTS, &order(count, "questions test"), &mut |_| ()).expect("drawn")
 });
 
 fn by_kind() -> BTreeMap<QuestionKind, Vec<&'static Question>> {
@@ -114,10 +114,10 @@ fn every_kind_has_questions() {
 
 #[test]
 fn the_same_seed_draws_the_same_questions() {
-    let small = || draw(&SUBJECTS[..6], &order(4, "again")).expect("drawn");
+    let small = || draw(&SUBJECTS[..6], &order(4, "again"), &mut |_| ()).expect("drawn");
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool").install(small);
     assert_eq!(one, small());
-    assert_ne!(one, draw(&SUBJECTS[..6], &order(4, "another")).expect("drawn"));
+    assert_ne!(one, draw(&SUBJECTS[..6], &order(4, "another"), &mut |_| ()).expect("drawn"));
 }
 
 #[test]

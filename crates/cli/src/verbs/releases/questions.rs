@@ -80,7 +80,9 @@ impl QuestionArgs {
             count: count as usize,
             seed: Seed::from_text(seed),
         };
-        let questions = draw(&subjects, &order)?;
+        let bar = console.progress(u64::from(count) * order.kinds.len() as u64, "questions");
+        let questions = draw(&subjects, &order, &mut |drawn| bar.set_position(drawn as u64))?;
+        bar.finish_and_clear();
         if questions.is_empty() {
             bail!(
                 "{}: no level is deterministic and fully visible, so there are no exact questions",

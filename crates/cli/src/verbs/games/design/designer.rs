@@ -128,7 +128,7 @@ impl RequestedDesigner {
 }
 
 impl Connected {
-    /// Informs whoever answers a mailbox that all drafts are finished.
+    /// Reports in the mailbox that all drafts are finished.
     pub(super) fn finish(&self, results: &Results, is_open: bool) -> Result<(), Failure> {
         let Some(mailbox) = self.mailbox.as_ref().filter(|_| !is_open) else { return Ok(()) };
         let accepted = results.drafts.iter().filter(|draft| draft.is_accepted()).count();
