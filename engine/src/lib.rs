@@ -54,7 +54,9 @@ pub use lint::{SwappedRule, swapped_rule};
 pub use numbers::chance::Chance;
 pub use numbers::geometry::{Direction, Rect};
 pub use observe::planes::{Drawn, Planes};
-pub use observe::{AvatarView, Category, Countdown, Event, MoverView, Observation, SpriteRecord};
+pub use observe::{
+    AvatarView, Category, Countdown, CountdownView, Event, MoverView, Observation, SpriteRecord,
+};
 pub use rules::class::{ClassFamily, SpriteClass};
 pub use rules::effects::{EffectFamily, ParameterKind, effect_parameters};
 pub use rules::{Action, Limit, Outcome, SpriteType};

@@ -3,7 +3,7 @@
 use crate::direction::direction_name;
 use base::Seed;
 use engine::analysis::{EffectSummary, Encounter, Motion, Role};
-use engine::{Analysis, SpriteType};
+use engine::{Analysis, SpriteClass, SpriteType};
 use render::{EMPTY, Glyph, Looks, Symbols};
 use std::collections::BTreeMap;
 
@@ -55,6 +55,8 @@ pub struct Entry {
     /// `true` if the type's sprites move straight ahead in directions that the rules alone do not determine,
     /// because some of the sprites are turned.
     pub is_turned: bool,
+    /// `true` if the type's sprites follow shortest paths to their target.
+    pub follows_paths: bool,
 }
 
 /// A game's table of characters. Only floors, or the avatar's states, can share a character.
@@ -84,7 +86,8 @@ impl Legend {
                 _ => EntryRole::Thing,
             };
             let (name, symbol) = (game.name(stype).to_owned(), symbols.symbol(stype));
-            Entry { name, symbol, role, is_turned: is_turned(analysis, stype) }
+            let follows_paths = analysis.game().class(stype) == Some(SpriteClass::PathChaser);
+            Entry { name, symbol, role, is_turned: is_turned(analysis, stype), follows_paths }
         };
         let mut entries: Vec<Entry> = types.iter().map(entry).collect();
         if !options.tracking {

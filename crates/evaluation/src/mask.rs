@@ -61,7 +61,9 @@ impl Mask {
         let avatar = masked.avatar.iter_mut().map(|avatar| &mut avatar.name);
         let held = masked.resources.iter_mut().map(|(name, _)| name);
         let movers = masked.movers.iter_mut().map(|mover| &mut mover.name);
-        for name in masked.cells.iter_mut().flatten().chain(held).chain(avatar).chain(movers) {
+        let clocks = masked.countdowns.iter_mut().map(|countdown| &mut countdown.name);
+        let others = held.chain(avatar).chain(movers).chain(clocks);
+        for name in masked.cells.iter_mut().flatten().chain(others) {
             if let Some(other) = self.names.get(name) {
                 name.clone_from(other);
             }

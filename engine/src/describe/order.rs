@@ -69,7 +69,14 @@ pub(super) fn order(analysis: &Analysis) -> Vec<String> {
     let gives = |what: fn(Gives) -> bool| {
         analysis.game().0.effects.iter().any(|info| info.summary.gives.is_some_and(what))
     };
-    if gives(|gives| matches!(gives, Gives::First { .. })) {
+    let is_collected = |stype: &SpriteType| analysis.facts(*stype).is_resource;
+    let counts_collected =
+        || analysis.goals().iter().any(|goal| goal.condition.types().iter().any(is_collected));
+    let collects = gives(|gives| matches!(gives, Gives::First { .. }));
+    if collects && counts_collected() {
+        lines.push(Phrase::HeldUncounted.with(&[]));
+    }
+    if collects {
         lines.push(Phrase::AtLimit.with(&[]));
     }
     if gives(|gives| matches!(gives, Gives::Amount { value, .. } if value > 0)) {

@@ -35,6 +35,7 @@ phrases! {
     Lingers: "What disappears still blocks and touches others in that tick{reopened}.",
     Reopened: ": what you open lets you in at the next press",
     AtLimit: "At the limit of what can be held, more stays where it is and brings no points.",
+    HeldUncounted: "Lines that count sprites do not count held ones.",
     TooMuch: "A gain beyond the limit of what can be held does not happen, not even in part.",
     ChaseStep: "Chasers take a step nearer, not around obstacles, at random if several are.",
     Paths: "A shortest way leads around where {obstacles} stood at the start, and is always the same between two cells; the walker runs into anything else that stops it, and waits there.",

@@ -9,7 +9,8 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Ending, Side, Target};
 use crate::rules::{Outcome, SpriteType, Timed};
 use crate::state::State;
-use crate::world::{Sprite, Timer, flag};
+use crate::tick::sprites::npcs::path_ahead;
+use crate::world::{Sprite, Timer, World, flag};
 
 /// An observation: the part of a state that is visible to players.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,11 +32,29 @@ pub struct Observation {
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, regardless of its type's name, or `None` once the avatar is gone.
     pub avatar: Option<AvatarView>,
-    /// The visible sprites, other than avatars, that have an orientation and can move, in drawing order.
+    /// The visible sprites, other than avatars, that have an orientation and can move, or follow paths, in
+    /// drawing order.
     pub movers: Vec<MoverView>,
+    /// The countdowns ([`Game::countdowns`]).
+    pub countdowns: Vec<CountdownView>,
 }
 
-/// The observable properties of a sprite that has an orientation and can move.
+/// The observable properties of a countdown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CountdownView {
+    /// The name of the type.
+    pub name: String,
+    /// The column and the row of the cell that contains the sprite's centre, or `None` for a timed effect.
+    pub cell: Option<(i32, i32)>,
+    /// The event at the end of the countdown.
+    pub event: Event,
+    /// The number of steps until the event, at least 1, or `None` if the event is random.
+    pub ticks: Option<i32>,
+    /// The number of sprites that the sprite can still create, or `None` for no limit.
+    pub left: Option<i32>,
+}
+
+/// The observable properties of a sprite that has an orientation and can move, or follows paths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MoverView {
     /// The name of the sprite's type.
@@ -44,7 +63,8 @@ pub struct MoverView {
     pub column: i32,
     /// The row of the cell that contains the sprite's centre, from 0 at the top.
     pub row: i32,
-    /// The direction in which the sprite moves.
+    /// The direction in which the sprite moves. If the sprite follows paths, the direction of its next step
+    /// while its target stays, or [`Direction::NONE`] if it has no target or no path.
     pub facing: Direction,
 }
 
@@ -92,6 +112,8 @@ pub struct SpriteRecord {
 /// The event at the end of a countdown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
+    /// The sprite can take its next step.
+    Moves,
     /// The sprite creates another sprite.
     Makes,
     /// The sprite turns into a sprite of another type.
@@ -105,6 +127,8 @@ pub enum Event {
 pub struct Countdown {
     /// The sprite's type.
     pub stype: SpriteType,
+    /// The column and the row of the cell that contains the sprite's centre, or `None` for a timed effect.
+    pub cell: Option<(i32, i32)>,
     /// The event at the end of the countdown.
     pub event: Event,
     /// The number of steps until the event, at least 1, or `None` if the event is random.
@@ -157,22 +181,26 @@ impl Game {
         let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
         let mut cells = vec![Vec::new(); columns * rows];
         let mut room = MAX_SEEN;
-        let cell =
-            |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block().max(1));
         let mut movers = Vec::new();
         for &stype in &self.0.order {
             let info = &self.0.types[stype.index()];
             if info.traits.hidden {
                 continue;
             }
-            let is_mover = info.traits.is_oriented && !info.traits.is_static && !info.is_like_avatar();
+            let follows = self.0.finds_paths && info.class == Some(SpriteClass::PathChaser);
+            let is_mover =
+                follows || info.traits.is_oriented && !info.traits.is_static && !info.is_like_avatar();
             for sprite in state.world.sprites_of(stype) {
                 if is_mover && movers.len() < MAX_SEEN {
+                    let (column, row) = centre(&state.world, sprite.rect);
                     movers.push(MoverView {
                         name: info.name.clone(),
-                        column: cell(sprite.rect.x, sprite.rect.w),
-                        row: cell(sprite.rect.y, sprite.rect.h),
-                        facing: state.world.overrides_of(&sprite).orientation,
+                        column,
+                        row,
+                        facing: match follows {
+                            true => path_ahead(&self.0, &state.world, &sprite),
+                            false => state.world.overrides_of(&sprite).orientation,
+                        },
                     });
                 }
                 let span = |from: i32, size: i32, limit: i32| {
@@ -195,7 +223,15 @@ impl Game {
         let resources = self.held_by_avatar(state);
         let (ticks, score, outcome) = ((state.world.tick() + 1) as u32, state.score(), state.world.outcome());
         let avatar = self.seen_avatar(state);
-        Observation { ticks, score, outcome, columns, rows, cells, resources, avatar, movers }
+        let view = |known: Countdown| CountdownView {
+            name: self.name(known.stype).to_owned(),
+            cell: known.cell,
+            event: known.event,
+            ticks: known.ticks,
+            left: known.left,
+        };
+        let countdowns = self.countdowns(state).into_iter().take(MAX_SEEN).map(view).collect();
+        Observation { ticks, score, outcome, columns, rows, cells, resources, avatar, movers, countdowns }
     }
 
     /// Returns the avatar's observable properties, or `None` if there is no living avatar. Cost: O(1).
@@ -203,12 +239,11 @@ impl Game {
         let stype = state.avatar_type()?;
         let (sprite, overrides) =
             (state.world.sprite(state.world.avatar()), state.world.overrides(state.world.avatar()));
-        let cell =
-            |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(state.world.block().max(1));
+        let (column, row) = centre(&state.world, sprite.rect);
         Some(AvatarView {
             name: self.name(stype).to_owned(),
-            column: cell(sprite.rect.x, sprite.rect.w),
-            row: cell(sprite.rect.y, sprite.rect.h),
+            column,
+            row,
             facing: overrides.orientation,
             health: overrides.health,
         })
@@ -252,44 +287,77 @@ impl Game {
         records
     }
 
-    /// Returns the countdowns of sprites that create other sprites or vanish on their own, by type and then
-    /// in order of creation. After these come the countdowns to timed effects, in order of execution, for
-    /// types that currently have sprites. Cost: O(sprites with countdowns + timers).
+    /// Returns the countdowns of sprites that create other sprites or vanish on their own, and of sprites that
+    /// cannot move in every tick, by type and then in order of creation. After these come the countdowns to
+    /// timed effects, in order of execution, for types that currently have sprites. Cost: O(sprites with
+    /// countdowns + timers).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
-        use SpriteClass as C;
-        let is_a = |stype: SpriteType, class: C| self.class(stype).is_some_and(|own| own.is_a(class));
-        let next = state.world.tick().saturating_add(1);
-        let countdown = |sprite: Sprite| {
-            let traits = &self.0.types[sprite.stype.index()].traits;
-            // A spreader spreads at age 2.
-            if is_a(sprite.stype, C::Spreader) && sprite.count < 2 && traits.spread_probability >= 1.0 {
-                let ticks = 2_i32.saturating_sub(sprite.count);
-                return Countdown {
-                    stype: sprite.stype,
-                    event: Event::Makes,
-                    ticks: Some(ticks),
-                    left: None,
-                };
-            }
-            if !is_a(sprite.stype, C::SpawnPoint) {
-                let ticks = traits.limit.saturating_sub(sprite.count).saturating_add(2).max(1);
-                return Countdown { stype: sprite.stype, event: Event::Ends, ticks: Some(ticks), left: None };
-            }
-            // A producer's first update sets its start.
-            let start = if sprite.is(flag::STARTED) { state.world.overrides_of(&sprite).start } else { next };
-            let gone = start.wrapping_add(next).rem_euclid(traits.cooldown.max(1));
-            let ticks = if gone == 0 { 1 } else { traits.cooldown - gone + 1 };
-            let left = (traits.total > 0).then(|| traits.total.saturating_sub(sprite.count));
-            let ticks = (traits.prob >= 1.0).then_some(ticks);
-            Countdown { stype: sprite.stype, event: Event::Makes, ticks, left }
-        };
-        let counts = |stype: &SpriteType| {
-            let ends = || is_a(*stype, C::Flicker) || is_a(*stype, C::OrientedFlicker);
-            !self.is_hidden(*stype) && (is_a(*stype, C::SpawnPoint) || ends())
-        };
-        let counting = self.sprite_types().filter(counts);
-        let own = counting.flat_map(|stype| state.world.sprites_of(stype).map(countdown));
+        let own = self.sprite_types().filter(|&stype| !self.is_hidden(stype)).flat_map(|stype| {
+            let changes = self.changes_by_itself(stype);
+            let rests = self.rests_between_moves(stype);
+            let sprites = state.world.sprites_of(stype).filter(move |_| changes || rests);
+            sprites.flat_map(move |sprite| {
+                let change = changes.then(|| self.next_change(state, &sprite));
+                let moves = rests && !sprite.is(flag::FROZEN);
+                change.into_iter().chain(moves.then(|| self.next_move(state, &sprite)))
+            })
+        });
         own.chain(self.timed_countdowns(state)).collect()
+    }
+
+    /// Returns `true` if sprites of the type create other sprites or vanish on their own.
+    fn changes_by_itself(&self, stype: SpriteType) -> bool {
+        use SpriteClass as C;
+        let classes = [C::SpawnPoint, C::Flicker, C::OrientedFlicker];
+        self.class(stype).is_some_and(|own| classes.iter().any(|&class| own.is_a(class)))
+    }
+
+    /// Returns `true` if sprites of the type move on their own or by keys, but not in every tick.
+    fn rests_between_moves(&self, stype: SpriteType) -> bool {
+        let info = &self.0.types[stype.index()];
+        let traits = &info.traits;
+        let walks = !traits.stationary && (traits.is_npc || info.is_like_avatar());
+        let drifts = traits.is_oriented && !traits.only_active && traits.speed != 0.0;
+        traits.cooldown > 1 && !traits.continuous && !traits.is_static && (walks || drifts)
+    }
+
+    /// Returns the countdown to the next tick in which a sprite can move.
+    fn next_move(&self, state: &State, sprite: &Sprite) -> Countdown {
+        let traits = &self.0.types[sprite.stype.index()].traits;
+        let age = state.world.tick().wrapping_sub(sprite.moved_at);
+        let ticks = traits.cooldown.saturating_sub(age).max(1);
+        Countdown {
+            stype: sprite.stype,
+            cell: Some(centre(&state.world, sprite.rect)),
+            event: Event::Moves,
+            ticks: Some(ticks),
+            left: None,
+        }
+    }
+
+    /// Returns the countdown to the next tick in which a sprite creates another sprite or vanishes on its own.
+    fn next_change(&self, state: &State, sprite: &Sprite) -> Countdown {
+        use SpriteClass as C;
+        let is_a = |class: C| self.class(sprite.stype).is_some_and(|own| own.is_a(class));
+        let traits = &self.0.types[sprite.stype.index()].traits;
+        let (event, ticks, left) =
+            if is_a(C::Spreader) && sprite.count < 2 && traits.spread_probability >= 1.0 {
+                // A spreader spreads at age 2.
+                (Event::Makes, Some(2_i32.saturating_sub(sprite.count)), None)
+            } else if !is_a(C::SpawnPoint) {
+                let ticks = traits.limit.saturating_sub(sprite.count).saturating_add(2).max(1);
+                (Event::Ends, Some(ticks), None)
+            } else {
+                let next = state.world.tick().saturating_add(1);
+                // A producer's first update sets its start.
+                let start =
+                    if sprite.is(flag::STARTED) { state.world.overrides_of(sprite).start } else { next };
+                let gone = start.wrapping_add(next).rem_euclid(traits.cooldown.max(1));
+                let ticks = if gone == 0 { 1 } else { traits.cooldown - gone + 1 };
+                let left = (traits.total > 0).then(|| traits.total.saturating_sub(sprite.count));
+                (Event::Makes, (traits.prob >= 1.0).then_some(ticks), left)
+            };
+        Countdown { stype: sprite.stype, cell: Some(centre(&state.world, sprite.rect)), event, ticks, left }
     }
 
     /// Returns `true` if [`Game::countdowns`] can contain countdowns to timed effects.
@@ -301,7 +369,13 @@ impl Game {
         let countdown = |timer: &Timer| {
             let (stype, event) = self.timed_event(&self.0.timed[usize::from(timer.timed)])?;
             let ticks = timer.due.saturating_sub(state.world.tick()).max(1);
-            (state.alive(stype) > 0).then_some(Countdown { stype, event, ticks: Some(ticks), left: None })
+            (state.alive(stype) > 0).then_some(Countdown {
+                stype,
+                cell: None,
+                event,
+                ticks: Some(ticks),
+                left: None,
+            })
         };
         state.world.timers().iter().rev().filter_map(countdown)
     }
@@ -405,4 +479,10 @@ impl State {
     pub fn avatar_id(&self) -> Option<u32> {
         self.world.avatar_id()
     }
+}
+
+/// Returns the column and the row of the cell that contains the centre of a rectangle.
+fn centre(world: &World, rect: Rect) -> (i32, i32) {
+    let cell = |from: i32, size: i32| from.saturating_add(size / 2).div_euclid(world.block().max(1));
+    (cell(rect.x, rect.w), cell(rect.y, rect.h))
 }

@@ -82,3 +82,37 @@ fn timed_effects_are_foretold() {
     assert_eq!(events.len(), 4, "{events:?}");
     assert!(events.contains(&Event::Turns) && events.contains(&Event::Ends));
 }
+
+/// A countdown to a move reaches 1 exactly before the ticks in which the sprite moves, and the observed direction
+/// is that of the next step. The hunters' ways around the rock are equally short.
+#[test]
+fn next_steps_are_foretold() {
+    let game = "BasicGame obs=rock\n    SpriteSet\n        rock > Immovable\n        wolf > PathChaser stype=hen cooldown=2\n        \
+        slug > Missile orientation=RIGHT cooldown=3\n        bear > PathChaser stype=hen\n        hen > MovingAvatar\n    \
+        LevelMapping\n        o > rock\n        w > wolf\n        s > slug\n        b > bear\n        A > hen\n    \
+        InteractionSet\n    TerminationSet\n        Timeout limit=90\n";
+    let game = Game::from_source(game).unwrap();
+    let level = game.level("w     b\n o ooo \n o   o \n oo Ao \n       \ns      \n").unwrap();
+    let mut state = game.start(&level, Seed::from_text("hunters"));
+    let mut moves = [0; 3];
+    for tick in 0..14 {
+        let before = game.observe(&state);
+        let keys = [Action::Nil, Action::Right, Action::Nil, Action::Left, Action::Up];
+        game.step(&mut state, keys[tick % keys.len()]);
+        let after = game.observe(&state);
+        for (moves, name) in moves.iter_mut().zip(["wolf", "slug", "bear"]) {
+            let seen = |of: &engine::Observation| of.movers.iter().find(|mover| mover.name == name).cloned();
+            let (Some(old), Some(new)) = (seen(&before), seen(&after)) else { continue };
+            let foretold = before.countdowns.iter().find(|known| known.name == name);
+            assert_eq!(foretold.is_some(), name != "bear");
+            let moved = (new.column - old.column, new.row - old.row);
+            let is_due = foretold.is_none_or(|known| known.event == Event::Moves && known.ticks == Some(1));
+            let way = (old.facing.x as i32, old.facing.y as i32);
+            let stayed = before.avatar == after.avatar;
+            assert!(is_due || moved == (0, 0), "{name} in tick {tick}");
+            assert!(!is_due || !stayed || moved == way, "{name} in tick {tick}: {moved:?}, not {way:?}");
+            *moves += u32::from(moved != (0, 0));
+        }
+    }
+    assert!(moves.iter().all(|&moves| moves >= 3), "{moves:?}");
+}

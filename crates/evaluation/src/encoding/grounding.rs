@@ -5,7 +5,7 @@ use super::grid::pile;
 use super::scene::{Scene, places};
 use crate::direction::direction_name;
 use crate::legend::{Entry, EntryRole, Legend};
-use engine::Observation;
+use engine::{CountdownView, Event, Observation};
 use itertools::Itertools;
 
 /// The maximum number of positions listed per type, nearest first.
@@ -44,30 +44,74 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
 /// Up to `NEAREST` sprites are listed per type, nearest first. Types that always move in a direction stated
 /// in the rules are omitted. Cost: O(movers × types).
 pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
+    let turned = legend.entries().iter().filter(|entry| entry.is_turned);
+    turned
+        .filter_map(|entry| Some(format!("{}: {}", entry.name, ways(observation, legend, entry)?)))
+        .collect()
+}
+
+/// Lists the directions of a type's sprites, each with the cells of up to `NEAREST` sprites, nearest first.
+/// Returns `None` if no sprite has a direction.
+fn ways(observation: &Observation, legend: &Legend, entry: &Entry) -> Option<String> {
     let avatar = Scene::of(observation, legend).avatar;
-    let line = |entry: &Entry| {
-        let of_type = observation.movers.iter().filter(|mover| mover.name == entry.name);
-        let mut movers: Vec<_> = of_type
-            .filter_map(|mover| {
-                let place = (usize::try_from(mover.column).ok()?, usize::try_from(mover.row).ok()?);
-                let is_inside = place.0 < observation.columns && place.1 < observation.rows;
-                direction_name(mover.facing).filter(|_| is_inside).map(|direction| (direction, place))
-            })
-            .collect();
-        movers.sort_by_key(|&(_, (column, row))| {
-            let distance = avatar.map_or(0, |(x, y)| column.abs_diff(x) + row.abs_diff(y));
-            (distance, row, column)
+    let of_type = observation.movers.iter().filter(|mover| mover.name == entry.name);
+    let mut movers: Vec<_> = of_type
+        .filter_map(|mover| {
+            let place = (usize::try_from(mover.column).ok()?, usize::try_from(mover.row).ok()?);
+            let is_inside = place.0 < observation.columns && place.1 < observation.rows;
+            direction_name(mover.facing).filter(|_| is_inside).map(|direction| (direction, place))
+        })
+        .collect();
+    movers.sort_by_key(|&(_, (column, row))| {
+        let distance = avatar.map_or(0, |(x, y)| column.abs_diff(x) + row.abs_diff(y));
+        (distance, row, column)
+    });
+    movers.truncate(NEAREST);
+    let ways = movers.iter().map(|(direction, _)| *direction).unique();
+    let ways = ways.map(|way| {
+        let cells: Vec<_> = movers.iter().filter(|(own, _)| *own == way).map(|(_, place)| *place).collect();
+        format!("{way} {}", places(&cells))
+    });
+    (!movers.is_empty()).then(|| ways.collect::<Vec<_>>().join(", "))
+}
+
+/// Lists facts about the near future that a board cannot show: the next steps of sprites that follow paths, as
+/// in `wolf: next step, while its target stays: left (3,4)`, and countdowns, soonest first, as in `crack:
+/// vanishes in 3 ticks (4,4); in 5 ticks (2,1)` and `wolf: can move in 2 ticks`.
+///
+/// Up to `NEAREST` countdowns are listed per type and event. Cells are omitted if the countdowns to an event
+/// are equal for all sprites of a type. Cost: O(c log c), where c is the number of countdowns.
+pub fn soon(observation: &Observation, legend: &Legend) -> Vec<String> {
+    let line = |entry: &Entry, event: Event| {
+        let of_event = |known: &&CountdownView| known.name == entry.name && known.event == event;
+        let known = observation.countdowns.iter().filter(of_event);
+        let mut timed: Vec<_> =
+            known.filter_map(|known| Some((known.ticks?, known.left, known.cell))).collect();
+        timed.sort_unstable();
+        let &(first, ..) = timed.first()?;
+        let are_equal = timed.iter().all(|&(ticks, left, _)| ticks == first && left.is_none());
+        timed.truncate(if are_equal { 1 } else { NEAREST });
+        let parts = timed.iter().map(|&(ticks, left, cell)| {
+            let unit = if ticks == 1 { "tick" } else { "ticks" };
+            let place = cell.filter(|_| !are_equal).map_or(String::new(), |(x, y)| format!(" ({x},{y})"));
+            let left = left.map_or(String::new(), |left| format!(", {left} left"));
+            format!("in {ticks} {unit}{place}{left}")
         });
-        movers.truncate(NEAREST);
-        let ways = movers.iter().map(|(direction, _)| *direction).unique();
-        let ways = ways.map(|way| {
-            let cells: Vec<_> =
-                movers.iter().filter(|(own, _)| *own == way).map(|(_, place)| *place).collect();
-            format!("{way} {}", places(&cells))
-        });
-        (!movers.is_empty()).then(|| format!("{}: {}", entry.name, ways.collect::<Vec<_>>().join(", ")))
+        let verb = match event {
+            Event::Moves => "can move",
+            Event::Makes => "makes something",
+            Event::Turns => "changes",
+            Event::Ends => "vanishes",
+        };
+        Some(format!("{}: {verb} {}", entry.name, parts.collect::<Vec<_>>().join("; ")))
     };
-    legend.entries().iter().filter(|entry| entry.is_turned).filter_map(line).collect()
+    let events = [Event::Moves, Event::Makes, Event::Turns, Event::Ends];
+    let lines = |entry: &Entry| {
+        let way = entry.follows_paths.then(|| ways(observation, legend, entry)).flatten();
+        let way = way.map(|way| format!("{}: next step, while its target stays: {way}", entry.name));
+        way.into_iter().chain(events.into_iter().filter_map(|event| line(entry, event))).collect::<Vec<_>>()
+    };
+    legend.entries().iter().flat_map(lines).collect()
 }
 
 /// Describes the nearest sprite in a direction, such as `wall` or `3 free, then lantern`.

@@ -14,6 +14,6 @@ mod scene;
 pub use coordinates::coordinates;
 pub use events::{events, ruled};
 pub use grid::{grid, rotated, stacks};
-pub use grounding::{directions, grounding};
+pub use grounding::{directions, grounding, soon};
 pub use json::json;
 pub use picture::{Picture, picture};

@@ -172,6 +172,7 @@ mod tests {
             resources: Vec::new(),
             avatar: None,
             movers: Vec::new(),
+            countdowns: Vec::new(),
         }
     }
 

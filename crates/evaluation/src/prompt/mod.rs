@@ -41,7 +41,7 @@ use serde::Serialize;
 
 /// The version of the templates and the English rules. It is incremented whenever their wording changes, so
 /// that results with different prompts are easy to tell apart.
-pub const VERSION: u32 = 10;
+pub const VERSION: u32 = 11;
 
 const TEMPLATES: [(&str, &str); 6] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),

@@ -73,6 +73,7 @@ impl View<'_> {
             "stacks": if grid { encoding::stacks(now, legend) } else { Vec::new() },
             "grounding": if grounding { encoding::grounding(now, legend) } else { Vec::new() },
             "directions": if grounding { encoding::directions(now, legend) } else { Vec::new() },
+            "soon": if grounding { encoding::soon(now, legend) } else { Vec::new() },
             "coordinates": if coordinates { encoding::coordinates(now, legend) } else { Vec::new() },
             "rotated": rotated.then(|| board(encoding::rotated(now, legend), spaced)),
             "json": json.then(|| encoding::json(now, legend)),

@@ -114,7 +114,7 @@ impl<'a> Place<'a> {
     }
 
     pub(super) fn view(&self, state: &State) -> View {
-        View::of(self.rules(), state, self.game.prompter.legend())
+        View::foretelling(self.rules(), state, self.game.prompter.legend())
     }
 
     /// Returns the win that was found in advance. Empty if none was found.

@@ -1,7 +1,7 @@
 //! Positions and recordings as text.
 
 use crate::direction::direction_name;
-use crate::encoding::{directions, grid, stacks};
+use crate::encoding::{directions, grid, soon, stacks};
 use crate::legend::Legend;
 use engine::{Action, Game, Observation, Outcome, State};
 use itertools::Itertools;
@@ -19,6 +19,15 @@ impl View {
     pub(super) fn of(game: &Game, state: &State, legend: &Legend) -> View {
         let observation = game.observe(state);
         View { board: grid(&observation, legend), notes: notes(&observation, legend) }
+    }
+
+    /// Returns the view with facts about the near future. They tell how sprites move, so questions about the
+    /// rules must not show them.
+    pub(super) fn foretelling(game: &Game, state: &State, legend: &Legend) -> View {
+        let mut view = View::of(game, state, legend);
+        let soon = soon(&game.observe(state), legend);
+        view.notes.splice(0..0, soon.into_iter().map(|line| format!("Soon: {line}")));
+        view
     }
 
     /// Returns the board and the notes.

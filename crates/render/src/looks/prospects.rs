@@ -80,11 +80,11 @@ impl Prospects {
         self.counts_down
     }
 
-    /// Describes, for each type with a countdown, its next event if the event occurs before the time limit:
+    /// Describes, for each type with a countdown, its next event other than a move, if the event occurs before the time limit:
     /// `molehill acts in 4 (2 left)`, `fire ends in 3`.
     pub(crate) fn countdowns(&self, game: &Game, state: &State) -> String {
         let mut next: Vec<Countdown> = Vec::new();
-        for found in game.countdowns(state) {
+        for found in game.countdowns(state).into_iter().filter(|found| found.event != Event::Moves) {
             let soon = |countdown: &Countdown| countdown.ticks.unwrap_or(i32::MAX);
             match next.iter_mut().find(|known| known.stype == found.stype) {
                 Some(known) if soon(&found) < soon(known) => *known = found,
@@ -97,6 +97,7 @@ impl Prospects {
             let left = countdown.left.map_or(String::new(), |left| format!(" ({left} left)"));
             match (countdown.ticks, countdown.event) {
                 (Some(ticks), Event::Makes) => format!("{name} acts in {ticks}{left}"),
+                (Some(ticks), Event::Moves) => format!("{name} moves in {ticks}"),
                 (Some(ticks), Event::Turns) => format!("{name} changes in {ticks}"),
                 (Some(ticks), Event::Ends) => format!("{name} ends in {ticks}"),
                 (None, _) => format!("{name}{left}"),

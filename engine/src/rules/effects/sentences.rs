@@ -276,11 +276,11 @@ impl Effect {
                     None => Sentence::of(
                         "{one} {one:lose|loses} {points} on touching {two}, and {one:die|dies} when {last}",
                     )
-                    .alone("{every} {every:lose|loses} {points}"),
+                    .alone("{every} {every:lose|loses} {points}, and {every:die|dies} when {last}"),
                     Some(stype) => Sentence::of(
                         "when {one} {one:touch|touches} {two}, that costs {who} {points}, and kills when {last}",
                     )
-                    .alone("it costs {who} {points}")
+                    .alone("it costs {who} {points}, and kills when {last}")
                     .with("who", Value::Party(stype)),
                 };
                 let last = match limit {

@@ -2,7 +2,7 @@
 
 use crate::numbers::geometry::{Direction, Rect};
 use crate::rules::class::{ClassFamily, SpriteClass};
-use crate::rules::{Limit, SpriteType};
+use crate::rules::{Limit, Rules, SpriteType};
 use crate::tick::physics;
 use crate::tick::{Scheduler, Step};
 use crate::world::{NO_HEADING, NONE, Slot, Sprite, Target, World, flag};
@@ -222,12 +222,16 @@ fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) ->
         step.stop(Limit::NoType);
         return Targets::NONE;
     }
-    let targets = match step.world.group(stype).head {
-        NONE => Targets { first: None, others: &step.rules.types[stype.index()].tree },
-        _ => Targets { first: Some(stype), others: &[] },
-    };
+    let targets = targets_of(step.rules, step.world, stype);
     step.work(targets.types().count() + targets.count(step.world));
     targets
+}
+
+fn targets_of<'a>(rules: &'a Rules, world: &World, stype: SpriteType) -> Targets<'a> {
+    match world.group(stype).head {
+        NONE => Targets { first: None, others: &rules.types[stype.index()].tree },
+        _ => Targets { first: Some(stype), others: &[] },
+    }
 }
 
 /// The first of the closest targets, and a flag that is `true` if further targets are equally close.
@@ -264,6 +268,21 @@ fn path_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
         }
         None => random_move(step, slot, traits.cons),
     }
+}
+
+/// Returns the direction that a PathChaser would choose now, or [`Direction::NONE`] if it has no target or no
+/// path to it.
+pub(crate) fn path_ahead(rules: &Rules, world: &World, sprite: &Sprite) -> Direction {
+    let traits = &rules.types[sprite.stype.index()].traits;
+    let Some(&stype) = traits.stypes.first().filter(|&&stype| stype != SpriteType::NONE) else {
+        return Direction::NONE;
+    };
+    let own = sprite.rect;
+    let targets = targets_of(rules, world, stype).slots(world).map(|slot| world.present(slot).rect);
+    let nearest = closest(traits.continuous, own, targets);
+    let way =
+        nearest.and_then(|nearest| world.first_step((own.x, own.y), (nearest.first.x, nearest.first.y)).0);
+    way.unwrap_or(Direction::NONE)
 }
 
 /// Returns the first step of the path to a position. A game without `obs=` has no paths, so the request stops
