@@ -36,8 +36,8 @@ pub enum EntryRole {
     Wall,
     /// The ground under the other sprites, omitted from encodings.
     Floor,
-    /// A stationary type with nothing to gain from it, such as soil, cover, or sprites that are broken by
-    /// shots or other sprites. Lists of its positions would be too long.
+    /// A stationary type from which there is nothing to gain, such as soil, cover, or sprites that shots or
+    /// other sprites can break. Lists of its positions would be too long.
     Scenery,
     /// Any other type.
     Thing,
@@ -52,8 +52,8 @@ pub struct Entry {
     pub symbol: char,
     /// The role of the sprite type.
     pub role: EntryRole,
-    /// `true` if the type's sprites move straight ahead in directions that the rules alone do not determine,
-    /// because some of the sprites are turned.
+    /// `true` if the type's sprites move straight ahead in directions that the rules do not fix, or stand
+    /// still and are turned.
     pub is_turned: bool,
     /// `true` if the type's sprites follow shortest paths to their target.
     pub follows_paths: bool,
@@ -165,7 +165,7 @@ fn is_scenery(analysis: &Analysis, stype: SpriteType) -> bool {
         && matches!(role, Role::Soil | Role::Cover | Role::Breakable | Role::Refuge | Role::Floor)
 }
 
-/// Returns `true` if a type's sprites move straight ahead in directions not fixed by the rules, or stand
+/// Returns `true` if a type's sprites move straight ahead in directions that the rules do not fix, or stand
 /// still and are turned.
 fn is_turned(analysis: &Analysis, stype: SpriteType) -> bool {
     let motion = analysis.facts(stype).motion;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Mask {
     /// The renamed game. The renamed sprite types keep their positions in the registry.
     pub(crate) game: Game,
-    /// `true` if the order of the names is hidden as well.
+    /// `true` if the avatar's resources are sorted by their new names, which hides the original order.
     is_neutral: bool,
     names: BTreeMap<String, String>,
 }

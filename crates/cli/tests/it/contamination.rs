@@ -195,7 +195,7 @@ fn wrong_inputs_name_the_next_move() {
         0,
     );
     refused(&["foreign", "--release", "revealed"], "no episode on any level of the release");
-    refused(&[published, published, "--release", "revealed"], "two folders have the same episodes");
+    refused(&[published, published, "--release", "revealed"], "two folders contain the same episodes");
 }
 
 /// The wins published by coins are revealed before the other files, under the same root.

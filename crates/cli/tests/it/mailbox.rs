@@ -81,7 +81,11 @@ fn episodes_are_answered_interrupted_and_resumed() {
     assert_eq!((&listed["unread"], &listed["running"]), (&1.into(), &false.into()));
     let refused = evaluate(broken, &[]).wait_with_output().unwrap();
     assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("continue it with --resume"), "{}", text(&refused.stderr));
+    assert!(
+        text(&refused.stderr).contains("continue the evaluation with --resume"),
+        "{}",
+        text(&refused.stderr)
+    );
     let mut playing = evaluate(broken, &["--resume"]);
     // Both answers are read.
     wait(broken, 2);

@@ -6,14 +6,14 @@ use itertools::Itertools;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// The start of an answer: a tag, a box, or a word such as "answer" with a punctuation mark or "is".
+/// The start of an answer: a tag, `\boxed{`, or a word such as "answer" followed by a punctuation mark or "is".
 static MARK: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?:<\|?(?:final[_ ]?)?answer\|?>|\\boxed\{|(?-u:\b)(?:answer|choice|option)["'*`_]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒|is(?-u:\b)))"#,
     )
 });
 
-/// The first word of an answer, after quotes, brackets and a noun.
+/// The first word of an answer, after optional quotes, brackets and the word "option" or "board".
 static WORD: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)^[\s*`"'(\[{_$<:]{0,9}(?:(?:option|board)[ \t*`"'(\[]{1,5})?(?P<word>[a-z0-9]+)(?P<rest>[^\n]*)"#,
@@ -24,9 +24,9 @@ static WORD: LazyLock<Regex> = LazyLock::new(|| {
 static ALONE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r#"(?i)^[ \t*`"'(\[{_$]*(?P<word>[a-z]+)[ \t*`"'.!)\]}_$]*$"#));
 
-/// Reads an answer that is one of a few words, such as `yes` and `no`, and returns the word's index. The requested
-/// format is a last line such as `ANSWER: yes`. The last marked answer counts, or, without a mark, a word alone on the
-/// last line. Single letters must be upper-case, unless they follow a mark. Cost: O(bytes).
+/// Reads an answer that is one of `words`, such as `yes` and `no`, and returns the word's index. The requested format
+/// is a last line such as `ANSWER: yes`. The last marked answer counts. If no answer is marked, a word alone on the
+/// last line counts. Single letters must be upper-case unless they follow a mark. Cost: O(bytes).
 pub fn read_choice(text: &str, words: &[&str]) -> Reading<usize> {
     let said = without_reasoning(text).trim();
     let Some(last) = said.lines().next_back() else {
@@ -43,7 +43,7 @@ pub fn read_choice(text: &str, words: &[&str]) -> Reading<usize> {
     let Some(choice) = words.iter().position(|known| known.eq_ignore_ascii_case(word)) else {
         return Reading::Invalid { why: format!("`{}` is not among the answers", quoted(word)) };
     };
-    // A letter can be an article, so only upper-case letters count in the rest of the line.
+    // The letter `a` can be an article, so a single letter in the rest of the line counts only if it is upper-case.
     let is_other = |other: &str| {
         let is_like =
             |known: &&str| known.eq_ignore_ascii_case(other) && (other.len() > 1 || *known == other);
@@ -65,9 +65,9 @@ fn stated<'a>(said: &'a str, words: &[&str]) -> Option<(&'a str, &'a str, Stage)
     (word.len() > 1 || words.contains(&word)).then_some((word, "", Stage::Words))
 }
 
-/// Reads a board of the given size: the last lines of the answer that have as many characters as the board has columns.
-/// The requested format is `ANSWER:` followed by the board. Spaces between characters, and lines around the board, are
-/// ignored. The board has one line per row. Cost: O(bytes).
+/// Reads a board of the given size: the last sequence of lines with `columns` characters each, which must have `rows`
+/// lines. The requested format is `ANSWER:` followed by the board. Spaces between characters, and lines around the
+/// board, are ignored. Returns the board with one line per row. Cost: O(bytes).
 pub fn read_board(text: &str, columns: usize, rows: usize) -> Reading<String> {
     let said = without_reasoning(text).trim();
     let mark = MARK.find_iter(said).last();

@@ -1,4 +1,4 @@
-//! Finds the decisions that an answer states, searching backwards from its end.
+//! Finds the decisions that an answer states, and chooses the last of them.
 
 use super::phrase::{self, Context, Phrase};
 use super::text::boundary;
@@ -8,7 +8,8 @@ use regex::{Captures, Regex};
 use std::ops::Range;
 use std::sync::LazyLock;
 
-/// The number of trailing lines searched for an action without the word "action".
+/// The number of non-empty lines at the end of an answer in which an action counts even without the word
+/// "action".
 const LAST_LINES: usize = 5;
 
 /// The maximum number of bytes to examine per line.
@@ -17,7 +18,8 @@ pub(super) const MAX_SCANNED: usize = 400;
 /// The maximum number of decisions to examine, counted from the end of the answer.
 const DECISIONS: usize = 100;
 
-/// The start of a marked decision: a tag, a box, or a word followed by a punctuation mark.
+/// The start of a marked decision: a tag, `\boxed{`, or a word such as "action" followed by a
+/// punctuation mark.
 static MARK: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)<\|?(?P<tag>(?:final[_ ]?)?(?:answer|action|move|choice|decision))\|?>|(?P<box>\\boxed\{)|(?-u:\b)(?P<key>(?:[a-z]{1,12}_)?actions?|(?:[a-z]{1,12}_)?(?:answer|move|choice|decision))(?P<quote>["']?)[*`_\])]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒)"#,
@@ -38,7 +40,7 @@ static MARKED_BY_WORD: LazyLock<Regex> = LazyLock::new(|| {
     )
 });
 
-/// The reference's spelling of an action.
+/// An action in the reference engine's spelling, such as `ACTION_LEFT`.
 static SPELLED: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)(?-u:\b)(?P<word>action_[a-z]+)(?-u:\b)"));
 
 /// An action alone on a line.
@@ -98,9 +100,9 @@ struct Decision<'a> {
     kind: Kind,
 }
 
-/// Reads a normalised answer that does not follow the requested format. Reads the marked decisions first, and
-/// then the text after the last marked decision. If no decision is marked, reads the entire answer as
-/// unmarked text.
+/// Reads a normalised answer that does not follow the requested format. Reads the marked decisions first. If
+/// the last of them contains an unknown word, also reads the text after it. If no decision is marked, reads
+/// the entire answer as unmarked text.
 pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let places: Vec<usize> = MARK.find_iter(said).map(|found| found.start()).collect();
     let marks = &places[places.len().saturating_sub(DECISIONS)..];
@@ -185,7 +187,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
     };
     let context = match kind {
         Kind::Json => phrase::context(&name),
-        // The word itself may show that the action lies in the past.
+        // The mark itself may show that the action lies in the past, as `last_action` does.
         _ => phrase::context(&said[at - line.len()..at + name.len()]),
     };
     match context {
@@ -209,7 +211,8 @@ fn in_object(text: &str) -> Phrase<'_> {
     }
 }
 
-/// Reads a tag that spans several lines. The decision may be on a line that is itself marked.
+/// Reads the content of a tag that spans several lines. One of the lines may state the decision after a mark
+/// of its own.
 fn in_several_lines(text: &str) -> Phrase<'_> {
     if phrase::names_other(text, None) { Phrase::Unclear } else { Phrase::Empty }
 }
@@ -237,7 +240,7 @@ fn unmarked<'a>(
     Some(Decision { found, at, end: word.end, kind: Kind::Word })
 }
 
-/// Returns an action stated in the last lines without the word "action".
+/// Returns the action that the last lines state without the word "action", if any.
 fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
     let from = from.max(last_lines(said));
     let tail = &said[from..];
@@ -271,8 +274,7 @@ fn words<'a>(said: &'a str, from: usize) -> Option<Decision<'a>> {
 }
 
 /// Returns the last of several decisions, or [`Found::Several`] if a related decision differs. Decisions are
-/// related if they are on the same line, or are all of the same kind: tags, boxes, or actions alone on a
-/// line.
+/// related if they are on the same line, or if all of them are tags, boxes, or actions alone on a line.
 fn settle<'a>(said: &str, found: &[Decision<'a>]) -> Option<Decision<'a>> {
     let (last, earlier) = found.split_last()?;
     let Found::Plain(choice, _) = last.found else { return Some(*last) };

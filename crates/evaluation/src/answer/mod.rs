@@ -1,10 +1,10 @@
 //! Reads actions from players' answers.
 //!
-//! The requested format is strict. This module defines the format for a single action, and `plan.rs` defines
+//! Prompts request a strict format. This module defines the format for a single action, and `plan.rs` defines
 //! the format for several actions. The rules in `decisions.rs` read an answer in any other format, and the
 //! log records which rule applied. No rule guesses. The last decision in an answer counts. It is invalid if
-//! it negates or judges its action, or states a second action. A number is an action only immediately after
-//! the word "action". The test vectors come from `spec/06` §1.5.
+//! it negates or judges its action, or states a second action. A number counts as an action only immediately
+//! after the word "action". The test vectors come from `spec/06` §1.5.
 
 mod choice;
 mod decisions;
@@ -27,17 +27,17 @@ const QUOTED: usize = 40;
 /// The answer format that a prompt requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// The last line is `ACTION: left`.
+    /// The last line has the form `ACTION: left`.
     Word,
-    /// At least one line is `Action:2`, where 2 is the action's number in the list. The last such line
-    /// counts.
+    /// At least one line has the form `Action:2`, where 2 is the action's number in the list. The last such
+    /// line counts.
     Number,
 }
 
 base::named_enum! {
     /// The rule that read an answer in a format other than the requested one.
     pub enum Stage {
-        /// `"action": "left"`, as in JSON.
+        /// A JSON key with its value, such as `"action": "left"`.
         Json = "json",
         /// A tag around an action: `<answer>left</answer>`.
         Tag = "tag",
@@ -46,7 +46,7 @@ base::named_enum! {
         Marker = "marker",
         /// A word such as "action", followed by more words and then an action, such as `Action: I move left`.
         Line = "line",
-        /// The reference's spelling, `ACTION_LEFT`.
+        /// The reference engine's spelling of an action, such as `ACTION_LEFT`.
         Reference = "reference",
         /// An action alone on a line or in quotes, or a statement of a move, such as `I go up`.
         Words = "words",
@@ -81,7 +81,7 @@ impl<T> Reading<T> {
         }
     }
 
-    /// Converts the choice with a function, and keeps the information about how it was read.
+    /// Converts the choice with a function, without changing the variant or the stage.
     pub fn map<U>(self, convert: impl FnOnce(T) -> U) -> Reading<U> {
         match self {
             Reading::Strict(choice) => Reading::Strict(convert(choice)),
@@ -157,7 +157,7 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     };
     let word = found?.get(1)?.as_str();
     match format {
-        // Synonyms and words in other languages are left to the tolerant rules.
+        // Synonyms are left to the tolerant rules.
         Format::Word => listed.iter().find(|action| word.eq_ignore_ascii_case(&action.to_string())).copied(),
         Format::Number => named(word, listed).action(),
     }
@@ -200,7 +200,7 @@ mod tests {
     use Action::{Down, Left, Nil, Right, Up, Use};
     use proptest::prelude::*;
 
-    /// The action numbers used in `spec/06` §1.5.
+    /// The actions in the order of their numbers in `spec/06` §1.5.
     const LISTED: [Action; 6] = [Nil, Use, Left, Right, Down, Up];
 
     fn check(text: &str, expect: &str) {

@@ -1,6 +1,6 @@
-//! Reads the phrase after the word "action", in a tag or in a JSON value. A phrase consists of words that
-//! lead to an action, the action itself, and an end or an explanation. A phrase with any other word is
-//! rejected, so the parser never guesses.
+//! Reads a phrase that states an action: the text after the word "action", the content of a tag, or a JSON
+//! value. A phrase consists of words that introduce an action, the action itself, and optionally an
+//! explanation. A phrase with any other word is rejected, so the parser never guesses.
 
 use super::{action_of, pattern};
 use engine::Action;
@@ -17,7 +17,7 @@ pub(super) enum Phrase<'a> {
     },
     /// The phrase states several actions.
     Several,
-    /// The phrase states an action, but negates it, judges it, or makes another statement about the action.
+    /// The phrase states an action, but negates it, judges it, or says something else about it.
     Unclear,
     /// The phrase begins with the given word or number, and does not state an action.
     Unknown(&'a str),
@@ -124,10 +124,10 @@ const LEAD: [&str; 68] = [
 const AFTER: [&str; 10] =
     ["key", "arrow", "button", "direction", "now", "again", "once", "please", "action", "first"];
 
-/// Words that begin a reason.
+/// Words that introduce a reason.
 const REASONS: [&str; 7] = ["because", "since", "as", "so", "to", "toward", "towards"];
 
-/// Words that continue the sentence.
+/// Words that continue the sentence after an action.
 const PREPOSITIONS: [&str; 20] = [
     "for", "in", "into", "onto", "through", "past", "along", "around", "at", "on", "by", "from", "with",
     "until", "over", "off", "out", "via", "across", "and",
@@ -150,7 +150,7 @@ const JOINS: [&str; 13] = [
     "no",
 ];
 
-/// Words that make a statement about an action.
+/// Words that turn a phrase into a statement about its action, rather than a choice.
 const JUDGING: [&str; 12] =
     ["is", "isn't", "was", "wasn't", "would", "could", "might", "may", "if", "unless", "but", "otherwise"];
 
@@ -186,7 +186,7 @@ const NEGATIONS: [&str; 29] = [
     "refuse",
 ];
 
-/// Words that mark an action as past, or as an item in a list.
+/// Words that mark an action as a past action, or as one of several listed actions.
 const ASIDES: [&str; 15] = [
     "previous",
     "last",
@@ -277,7 +277,7 @@ pub(super) fn read<'a>(text: &'a str, listed: Option<&[Action]>) -> Phrase<'a> {
         Some(_) => Phrase::Unclear,
         None => match unknown.filter(|word| !word.is_empty()) {
             Some(word) => Phrase::Unknown(word),
-            // The phrase has words that lead to an action, but no action.
+            // The phrase contains words that introduce an action, but no action.
             None => TOKEN
                 .captures_iter(text)
                 .find_map(|token| token.name("word"))
@@ -378,8 +378,8 @@ pub(super) fn context(before: &str) -> Context {
     context
 }
 
-/// Returns `true` if the last clause of `before` leads to an action by the player, as `So I will` does. `the
-/// ghost will` does not.
+/// Returns `true` if the last clause of `before` introduces an action of the player, as `So I will` does and
+/// `the ghost will` does not.
 pub(super) fn leads(before: &str) -> bool {
     let words: Vec<String> = words(clause(before)).collect();
     let person = words.iter().rposition(|word| {

@@ -17,7 +17,8 @@ static PLAN_LINE: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^PLAN:[ \t]*(
 /// An item in the requested plan format: an action with its repeat count.
 static ITEM: LazyLock<Regex> = LazyLock::new(|| pattern(r"(?i)^([a-z]+)(?:[ \t]+x[ \t]?([0-9]{1,9}))?$"));
 
-/// The start of a plan: a tag, a box, or a word such as "plan" or "actions" with a punctuation mark.
+/// The start of a plan: a tag, `\boxed{`, or a word such as "plan" or "actions" followed by a
+/// punctuation mark.
 static MARKER: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?:<\|?(?P<tag>(?:final[_ ]?)?(?:plan|answer|actions?|moves?))\|?>|\\boxed\{|(?-u:\b)(?P<word>plan|(?:final[_ ])?answer|actions?|moves?)(?P<quote>["']?)[*`]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒))[ \t]*[*`]{0,3}"#,
@@ -63,16 +64,16 @@ pub fn read_plan(text: &str, due: u64, listed: &[Action]) -> Reading<Vec<Action>
             _ => Stage::Marker,
         };
         match list(rest, due, listed) {
-            // The markers belong to objects with one action each, whose other keys may state counts and the
-            // order.
+            // Each of these markers belongs to an object with a single action. The other keys of the objects
+            // may state counts and the order.
             List::Plan(_) if is_json && is_one_of_several(marker, &markers) => return none(),
             List::Plan(_) if !is_json && phrase::retracts_plan(rest) => return none(),
             List::Plan(choice) => return Reading::Tolerant { choice, stage },
             List::Unknown(word) => {
                 return Reading::Invalid { why: format!("`{}` is not an action of the list", quoted(word)) };
             }
-            // Words around actions do not form a list, so the answer has no plan. An earlier plan does not
-            // replace it.
+            // Actions among other words do not form a list, so this marker has no plan, and no earlier plan
+            // replaces it.
             List::None if phrase::names_other(first_line(rest), None) => break,
             List::None => {}
         }
@@ -117,7 +118,7 @@ fn strict(said: &str, due: u64, listed: &[Action]) -> Option<Vec<Action>> {
 /// The result of parsing the beginning of a text as a list of actions.
 enum List<'a> {
     Plan(Vec<Action>),
-    /// A word that is not an action, in the first line or after an action on the same line.
+    /// A word that is not an action, after an action on the same line.
     Unknown(&'a str),
     None,
 }

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 const REASONING: &str =
     "(?:seed:)?(?:think|thinking|thought|thoughts|reasoning|analysis|scratchpad|reflection)";
 
-/// The end of the reasoning: a closing tag, or the marker of the channel in which gpt-oss answers.
+/// The end of the reasoning: a closing tag, or the marker of gpt-oss's final channel.
 static CLOSING: LazyLock<Regex> = LazyLock::new(|| {
     pattern(&format!(
         r"(?i)</{REASONING}>|\[/think\]|◁/think▷|<\|end_thinking\|>|<\|end_of_thought\|>|<\|channel\|>final[^<\n]{{0,40}}<\|message\|>"

@@ -1,4 +1,4 @@
-//! A cache of paid answers in a folder, with one file per answer.
+//! A cache of paid answers, stored in a folder with one file per answer.
 
 use super::chat::{ChatReply, ChatRequest};
 use super::provider::Provider;
@@ -38,7 +38,7 @@ struct Entry {
 /// different answers, but a repeated run must receive the same answers as before. At temperature 0, all draws
 /// share one answer.
 ///
-/// The key does not cover the API key, time limits and caps, which do not affect answers.
+/// The key does not cover the API key, time limits or caps, because they do not affect answers.
 pub(super) fn key(provider: Provider, url: &str, body: &[u8], request: &ChatRequest) -> Digest {
     let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 cached reply");
     let mut add = |part: &[u8]| {
@@ -193,7 +193,7 @@ mod tests {
         large.resize(MAX_ENTRY as usize + 1, b' ');
         fs::write(&path, large).unwrap();
         assert_eq!(cache.get(key), None);
-        // Storing an answer replaces an existing file with any content.
+        // Storing an answer replaces the existing file, whatever its content.
         cache.put(key, &reply());
         assert_eq!(cache.get(key), Some(reply()));
     }

@@ -1,11 +1,12 @@
-//! Model requests and model answers.
+//! Requests to models, and their answers.
 
 use base::Seed;
 use serde::{Deserialize, Serialize};
 
 /// A language model that answers chats.
 pub trait Model: Sync + Send {
-    /// Requests one answer. Retries after transient failures, and returns every try's failure.
+    /// Requests one answer, and retries after transient failures. Both the answer and the error list the
+    /// failed tries.
     ///
     /// # Errors
     /// Returns an error if no answer could be obtained. [`ChatErrorKind`] lists the causes.
@@ -20,10 +21,10 @@ pub struct ChatRequest {
     pub messages: Vec<ChatMessage>,
     /// The sampling settings for the answer.
     pub decoding: Decoding,
-    /// The seed of this answer's draw, which is not sent to the provider. Requests that have equal content
-    /// but need independent answers use distinct seeds, derived from values such as the episode's seed, run,
-    /// step and attempt. The seed determines the jitter of waits. Unless the temperature is 0, the seed also
-    /// selects the cached answer.
+    /// The seed that identifies this answer's draw. It is not sent to the provider. Requests that have equal
+    /// content but need independent answers use distinct seeds, derived from values such as the episode's
+    /// seed, run, step and attempt. The seed determines the jitter of waits. Unless the temperature is 0, the
+    /// seed also selects the cached answer.
     pub sample: Seed,
 }
 
@@ -62,7 +63,7 @@ pub struct Decoding {
     pub top_p: Option<f64>,
     /// The maximum number of tokens in the answer, including reasoning.
     pub max_output_tokens: Option<u32>,
-    /// The provider's sampling seed.
+    /// The sampling seed to send to the provider.
     pub seed: Option<u64>,
     /// The reasoning effort: `low`, `medium`, `high`, or a provider-specific value.
     pub reasoning_effort: Option<String>,
@@ -91,7 +92,7 @@ pub struct ChatReply {
 }
 
 impl ChatReply {
-    /// Creates an answer from just a text and a finish reason.
+    /// Creates an answer with the given text and finish reason, and default values for all other fields.
     pub fn new(text: String, finish: Finish) -> ChatReply {
         ChatReply { text, finish, ..ChatReply::default() }
     }
@@ -169,7 +170,7 @@ pub struct ChatError {
     pub failures: Vec<Failure>,
 }
 
-/// The reason for a missing answer.
+/// The reason why no answer could be obtained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChatErrorKind {

@@ -40,7 +40,7 @@ pub struct ModelSettings {
     pub server: String,
     /// The server's name for the model.
     pub model: String,
-    /// The sampling settings for answers, including the provider's required settings. All requests must use
+    /// The sampling settings for answers, including those that the provider requires. All requests must use
     /// exactly these settings.
     pub decoding: Decoding,
 }
@@ -129,9 +129,9 @@ fn check_variable(name: Option<&str>) -> Result<(), EvaluationError> {
     if name.is_none_or(is_name) {
         return Ok(());
     }
-    let problem = "--key-variable takes the name of an environment variable, which consists of capitals, \
-                   digits and `_`, such as `MY_API_KEY`; export the key under that name, and never put the \
-                   key itself on the command line";
+    let problem = "--key-variable takes the name of an environment variable, which consists of capital \
+                   letters, digits and `_`, such as `MY_API_KEY`; export the key under that name, and never \
+                   put the key itself on the command line";
     Err(EvaluationError::Malformed(problem.to_owned()))
 }
 

@@ -11,13 +11,13 @@ pub(super) struct Key {
     secret: String,
 }
 
-/// The minimum length of a key to search for in answers. A shorter key could be an ordinary word.
+/// The minimum length of keys that are searched for in answers. A shorter key could be an ordinary word.
 const MIN_SEARCHED: usize = 16;
 
 /// The text that replaces a key in a server's reply.
 const HIDDEN: &str = "[key]";
 
-/// Reads an environment variable. The client reads only variables that hold keys.
+/// Reads an environment variable. The client reads only variables that contain keys.
 #[expect(clippy::disallowed_methods, reason = "keys come from the environment only, and decide no action")]
 pub(super) fn environment(variable: &str) -> Option<String> {
     std::env::var(variable).ok()
@@ -36,7 +36,7 @@ impl Key {
         }
         if !secret.bytes().all(|byte| byte.is_ascii_graphic()) {
             let problem = format!(
-                "the value of {variable} contains characters that are invalid in a key; set it again"
+                "the value of {variable} contains characters that keys cannot contain; set the variable again"
             );
             return Err(EvaluationError::Malformed(problem));
         }
@@ -51,7 +51,7 @@ impl Key {
         value
     }
 
-    /// Replaces the key in a server's error message.
+    /// Replaces the key with [`HIDDEN`] in a server's error message.
     pub(super) fn hide_in_message(&self, words: &str) -> String {
         words.replace(&self.secret, HIDDEN)
     }

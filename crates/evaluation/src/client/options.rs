@@ -11,7 +11,7 @@ base::with_defaults! {
     /// environment.
     #[derive(Clone, Debug)]
     pub struct ModelOptions {
-        /// The model: `openai:…`, `anthropic:…`, `gemini:…`, or any name with a base URL.
+        /// The model: `openai:…`, `anthropic:…`, `gemini:…` or, if a base URL is set, any name.
         pub model: String = String::new(),
         /// The server's base URL, if different from the provider's own.
         pub base_url: Option<String> = None,
@@ -45,7 +45,7 @@ base::with_defaults! {
 
 impl ModelOptions {
     /// Creates a model's options with default settings: four concurrent requests, eight tries, ten minutes
-    /// per try, ten seconds per connection, replies of up to 4 MiB, no caps, and no cache.
+    /// per try, ten seconds to connect, replies of up to 4 MiB, no caps, and no cache.
     pub fn new(model: &str) -> ModelOptions {
         ModelOptions { model: model.to_owned(), ..ModelOptions::default() }
     }

@@ -1,4 +1,5 @@
-//! A model on a server. The client handles retries after transient failures, caps, rates and the cache.
+//! A model on a server. The client retries after transient failures, enforces caps and rates, and uses the
+//! cache.
 
 use super::cache::{self, Cache};
 use super::chat::{ChatError, ChatErrorKind, ChatReply, ChatRequest, Failure, Model};
@@ -26,13 +27,13 @@ pub(super) struct Remote {
     pub(super) clock: Arc<dyn Clock>,
 }
 
-/// The wait after the first try. Each further try doubles the wait.
+/// The wait after the first failed try. The wait doubles after each further failure.
 const FIRST_WAIT: Duration = Duration::from_secs(1);
 
-/// The maximum wait chosen by the client.
+/// The maximum wait, unless the server requests a longer one.
 const MAX_WAIT: Duration = Duration::from_secs(60);
 
-/// The maximum wait that a server can request.
+/// The maximum wait that a server can request. The client gives up if the server requests more.
 const MAX_SERVER_WAIT: Duration = Duration::from_secs(300);
 
 impl Model for Remote {
@@ -152,7 +153,7 @@ impl Remote {
                 format!("; check that the key in {} is valid for {host}", key.variable)
             }
             (401 | 403, None) => {
-                "; if the server requires a key, pass the key's variable with --key-variable".to_owned()
+                "; if the server requires a key, pass the name of its variable with --key-variable".to_owned()
             }
             (404, _) if self.spec.server.own => format!("; check the model name `{model}`"),
             (404, _) => {
@@ -170,7 +171,7 @@ impl Remote {
         let status = last.status.map(|status| format!("{status}: ")).unwrap_or_default();
         let times = if failures.len() == 1 { "once".to_owned() } else { format!("{} times", failures.len()) };
         let requested_wait = requested_wait
-            .map(|time| format!(", with a requested wait of {} s", time.as_secs()))
+            .map(|time| format!(", and the server requested a wait of {} s", time.as_secs()))
             .unwrap_or_default();
         let message = format!(
             "requests to {host} failed {times}, the last time with {status}{}{requested_wait}; continue later with --resume",

@@ -23,7 +23,7 @@ pub struct Server {
     pub base_url: String,
     /// The host, with the port if the URL contains one.
     pub host: String,
-    /// `true` if the server is this machine.
+    /// `true` if the server runs on this machine.
     pub loopback: bool,
     /// `true` if the connection is encrypted.
     pub encrypted: bool,
@@ -33,8 +33,8 @@ pub struct Server {
 
 impl ModelSpec {
     /// Parses a model ID as typed by users: `openai:…`, `anthropic:…` or `gemini:…`. With a base URL, any
-    /// name is accepted, and the server is assumed to be OpenAI-compatible. With both a prefix and a base
-    /// URL, the prefix determines which API the server at the URL has.
+    /// name is accepted, and the server is assumed to be OpenAI-compatible. If both a prefix and a base URL
+    /// are given, the prefix determines the API of the server at that URL.
     ///
     /// # Errors
     /// Returns an error if the ID or the URL is malformed. The message shows the expected form.
@@ -82,7 +82,7 @@ fn unknown(id: &str) -> String {
     });
     let guess = guess.map(|guess| format!("; did you mean `{guess}`?")).unwrap_or_default();
     format!(
-        "`{id}` does not include the provider of the model{guess}\n  pass `openai:NAME`, `anthropic:NAME` or \
+        "`{id}` does not name the model's provider{guess}\n  pass `openai:NAME`, `anthropic:NAME` or \
          `gemini:NAME`, or the server's address: `--base-url http://localhost:8000/v1`"
     )
 }
@@ -115,7 +115,7 @@ impl Server {
             return Err(malformed("has a port that is not a number from 1 to 65535"));
         }
         if uri.query().is_some() {
-            return Err(malformed("has a query"));
+            return Err(malformed("has a query string"));
         }
         let host = authority.host();
         let bare = host.trim_start_matches('[').trim_end_matches(']');

@@ -25,8 +25,8 @@ pub(super) struct HttpReply {
 }
 
 impl Wire {
-    /// Creates a client for `server`. A request may take `timeout` in total, and a reply may have
-    /// `reply_limit` bytes. Proxies from the environment are used, unless the server is this machine.
+    /// Creates a client for `server`. A request may take up to `timeout` in total, and a reply may have up to
+    /// `reply_limit` bytes. Proxies from the environment are used, unless the server runs on this machine.
     pub(super) fn new(server: &Server, options: &ModelOptions) -> Wire {
         let &ModelOptions { timeout, connect_timeout, reply_limit, .. } = options;
         let mut config = Agent::config_builder()
@@ -83,7 +83,7 @@ impl Wire {
             Error::Timeout(_) => format!("no complete answer within {:?}", self.timeout),
             Error::HostNotFound => "the host was not found".to_owned(),
             Error::Io(error) => format!("the connection failed: {error}"),
-            other => format!("the exchange failed: {other}"),
+            other => format!("the request failed: {other}"),
         }
     }
 }

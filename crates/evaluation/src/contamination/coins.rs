@@ -4,15 +4,15 @@
 use base::Digest;
 use engine::Action;
 
-/// A release's games and winning episodes. For each of them, a coin decided which side is published and which
-/// is withheld.
+/// The coins of a release's games and levels. Each coin decided which of two equivalent games or winning
+/// episodes was published, and which was withheld.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coins {
     /// The release's games.
     pub games: Vec<GameCoin>,
 }
 
-/// A game, with its withheld sibling.
+/// A published game, with its withheld sibling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameCoin {
     /// The game's folder name.
@@ -32,8 +32,8 @@ pub struct LevelCoin {
     pub published: Digest,
     /// The level's digest in the withheld sibling, if any.
     pub withheld: Option<Digest>,
-    /// The first actions of the published and the withheld win. The two sequences differ but have the same
-    /// length. `None` unless both wins exist.
+    /// The first actions of the published win and of the withheld win. The two sequences differ but have the
+    /// same length. `None` unless both wins exist.
     pub beginnings: Option<[Vec<Action>; 2]>,
 }
 

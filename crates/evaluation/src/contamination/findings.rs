@@ -25,12 +25,11 @@ pub struct Contamination {
 pub struct PlayerMemory {
     /// The player's name.
     pub player: String,
-    /// The test power, for several assumed fractions of levels that the player knows.
+    /// The power of the tests, for several assumed fractions of levels known to the player.
     pub power: Vec<Power>,
     /// The test of whether the player's episodes begin like published wins rather than withheld wins.
     pub solutions: Option<SideTest>,
-    /// The test of the hypothesis that the player's episodes begin like published wins rather than withheld
-    /// wins.
+    /// The test of whether the player wins published games more often than their withheld siblings.
     pub games: Option<SideTest>,
     /// The conclusion from both tests.
     pub evidence: Evidence,
@@ -46,7 +45,7 @@ pub struct SideTest {
     /// The number of coins with different results on their two sides. Coins with equal results are not
     /// evidence.
     pub informative: u64,
-    /// The number of episodes, or, in the sibling test, the number of episode pairs.
+    /// The number of episodes, or, in the game test, the number of episode pairs.
     pub episodes: u64,
     /// The total on the published side: the number of wins, or the number of episodes that begin like the
     /// published win.
@@ -69,8 +68,8 @@ impl SideTest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
-    /// No test was possible: there is no game of which the player has played both siblings, and no level with
-    /// two wins that the player has played.
+    /// No test was possible: the player has played no level with two wins, and no game together with its
+    /// sibling.
     Untested,
     /// No test has enough coins to be significant, whatever the player knows.
     CannotTell,
@@ -271,9 +270,9 @@ mod tests {
         contamination(&coins(fall), &[player]).players[0].evidence
     }
 
-    /// Over all coin outcomes, a player without knowledge of the coins has p ≤ x in at most the fraction x of
-    /// the outcomes. This bound holds however the player's skill differs between games, and whichever
-    /// beginnings it prefers.
+    /// For a player without knowledge of the coins, p ≤ x holds in at most a fraction x of all coin outcomes.
+    /// The bound does not depend on how the player's skill varies between games, or on which beginnings it
+    /// prefers.
     #[test]
     fn the_level_is_exact() {
         let clean = player(|game, side| (side == 0 || game % 3 == 0, BEGINNINGS[usize::from(game < 7)]));
@@ -314,7 +313,7 @@ mod tests {
         assert_eq!(found.players[0].evidence, Evidence::Untested);
     }
 
-    /// With too few coins, the conclusion is that the tests cannot tell.
+    /// With too few coins, the conclusion is [`Evidence::CannotTell`].
     #[test]
     fn too_few_coins_cannot_tell() {
         assert_eq!([1, 2, 4].map(|tests| needed(ALPHA / f64::from(tests))), [7, 8, 9]);

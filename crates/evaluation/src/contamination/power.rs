@@ -14,13 +14,13 @@ pub const SHARES: [f64; 5] = [0.1, 0.2, 0.3, 0.5, 1.0];
 const KNOWN: f64 = 0.9;
 /// The assumed win rate of a player on levels that it does not know.
 const CLEAN: f64 = 0.27;
-/// The fraction of episodes that begin like a win by chance. The value was measured for `reflex`, and is the
+/// The fraction of episodes that happen to begin like a win. The value was measured for `reflex`, and is the
 /// highest among all measured players.
 const BY_CHANCE: f64 = 0.07;
 /// The standard deviation, in logits, of the difference between the effects of two sets of names on a
 /// player's results.
 const NAMES: f64 = 0.5;
-/// The number of simulated players for each power value in the sibling test.
+/// The number of simulated players for each power value of the game test.
 const TRIALS: u64 = 1000;
 /// The seed of the power simulation.
 const SEED: u64 = 32;
@@ -37,9 +37,9 @@ pub struct Power {
 }
 
 impl Power {
-    /// Returns a design's power if each test is at significance level `alpha`. In the design, each of
-    /// `levels` levels with two wins is played once, and `pairs` contains the number of episode pairs for
-    /// each game with a sibling.
+    /// Returns the power of a design in which each test has significance level `alpha`. Each of `levels`
+    /// levels with two wins is played once, and `pairs` contains the number of episode pairs for each game
+    /// with a sibling.
     pub fn of(levels: u64, pairs: &[u64], alpha: f64) -> Vec<Power> {
         let of = |share: f64| {
             let player = Memoriser { share, known: KNOWN, clean: CLEAN };

@@ -84,7 +84,7 @@ pub fn episodes_by_player(folders: &[PathBuf]) -> Result<Vec<PlayerEpisodes>, Ev
 
 fn twice(player: &Player, game: &str, folder: &Path) -> EvaluationError {
     let what = format!(
-        "two folders have the same episodes of {} on {game}; pass only one of the folders",
+        "two folders contain the same episodes of {} on {game}; pass only one of the folders",
         player.label()
     );
     EvaluationError::malformed(folder, what)

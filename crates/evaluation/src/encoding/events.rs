@@ -7,7 +7,7 @@ use engine::{Action, AvatarView, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of cells listed per appearing or disappearing type.
+/// The maximum number of newly occupied cells, and of vacated cells, listed per type.
 const MAX_CELLS: usize = 4;
 
 /// Describes the effects of an action by comparing the observations before and after it. The lines describe
@@ -88,8 +88,8 @@ fn moved(before: Option<&AvatarView>, now: Option<&AvatarView>) -> String {
     told
 }
 
-/// Returns the types that the avatar met: the types in its cell, and the types in the adjacent cell that it
-/// faced but did not enter, or in which it was lost.
+/// Returns the types that the avatar met: the types in its cell and, if it neither moved nor turned, those in
+/// the adjacent cell in the direction of the action. If the avatar is gone, its last cell counts.
 fn met(
     old: &Scene<'_>,
     new: &Scene<'_>,
@@ -121,7 +121,7 @@ fn met(
     met
 }
 
-/// Returns the adjacent cell in the direction of a key.
+/// Returns the adjacent cell in the action's direction, if that cell is on the board.
 fn ahead(scene: &Scene<'_>, (column, row): (usize, usize), action: Action) -> Option<(usize, usize)> {
     let (right, down) = match action {
         Action::Up => (0, -1),

@@ -99,7 +99,7 @@ pub enum Event {
         step: u64,
         /// The action played.
         action: Action,
-        /// The origin of the action's choice.
+        /// The origin of the choice.
         validity: Validity,
         /// The score after the action.
         score: f64,

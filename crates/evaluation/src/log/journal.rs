@@ -125,7 +125,7 @@ fn fault(line: &[u8], error: &serde_json::Error) -> String {
         Ok(Value::Object(value)) => value,
         Ok(_) => return "the line is not a JSON object".to_owned(),
         // The parser sees only one line.
-        Err(error) => return format!("the line is not valid JSON (from column {})", error.column()),
+        Err(error) => return format!("the line is not valid JSON (at column {})", error.column()),
     };
     let Some(name) = value.get("event").and_then(Value::as_str) else {
         return "the field `event` is missing".to_owned();
@@ -149,8 +149,8 @@ mod tests {
     fn faults_of_lines() {
         let halt = "{\"event\":\"halt\",\"reason\":\"budget\",\"message\":\"\"}";
         for (line, expect) in [
-            ("hello", "the line is not valid JSON (from column 1)"),
-            (&halt[..30], "the line is not valid JSON (from column 30)"),
+            ("hello", "the line is not valid JSON (at column 1)"),
+            (&halt[..30], "the line is not valid JSON (at column 30)"),
             ("[1, 2]", "the line is not a JSON object"),
             ("{\"step\": 3}", "the field `event` is missing"),
             (&halt.replace("halt", "stop"), "`stop` isn't an event"),

@@ -22,7 +22,7 @@ impl<'a> Answers<'a> {
         Ok(())
     }
 
-    /// Records an event other than an answer, found between two steps.
+    /// Records an event between two steps that is not an answer.
     pub(super) fn other(&mut self, event: &Event) {
         self.is_model |= matches!(event, Event::Request { .. });
     }
@@ -64,8 +64,8 @@ impl<'a> Answers<'a> {
             return if is_model { wrong("the answer is missing") } else { Ok(()) };
         };
         if !is_model {
-            // The log does not contain the answer that was read successfully. If there are two unreadable
-            // answers, the second was the last answer.
+            // An external program's log does not contain the answer that was read successfully. If the log
+            // contains two unreadable answers, the second was the last answer.
             let has_failed = replies.len() > 1;
             return match (is_valid, has_failed) {
                 (true, true) => wrong("no answer was usable"),

@@ -7,7 +7,7 @@
 //! - A reversal does not count even if it earned a reward.
 //! - A new sprite does not count unless it covers a character.
 //! - The avatar is the first `a` or `A` of the text.
-//! - The last step of an episode is lost.
+//! - The last step of an episode is omitted.
 //!
 //! The boards' one-tick lag in one version of the reference code is not reproduced.
 
@@ -15,8 +15,9 @@ use engine::{Action, Game, Observation};
 use itertools::Itertools;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns the flags of all steps except the last. `texts` contains the board before each action, so there is
-/// no board after the last one. Board rows are joined by line feeds.
+/// Returns, for each step except the last, `true` if the reference code considers the step meaningful.
+/// `texts` contains the board before each action, so there is no board after the last one. Board rows are
+/// joined by line feeds.
 ///
 /// ```
 /// # use engine as infinite_arcade_engine;
@@ -113,8 +114,8 @@ impl AsCode {
             if entity.contains("avatar") || self.symbols.contains_key(entity) {
                 continue;
             }
-            // The reference's code fails when it runs out of characters. Here, the remaining contents are
-            // drawn as floor.
+            // The reference code fails when it runs out of characters. Here, the remaining contents are drawn
+            // as floor.
             let Some(symbol) = free.next() else { break };
             self.symbols.insert(entity.to_owned(), symbol);
         }
@@ -151,7 +152,7 @@ mod tests {
 
     #[test]
     fn faults_of_the_reference_are_kept() {
-        // The only step of an episode has no flag.
+        // An episode with a single step has no flags.
         check(&["a."], &[Right], &[1.0], &[]);
         // Doing nothing never counts, whatever its effect.
         check(&["a#", "a."], &[Nil], &[1.0], &[false]);
@@ -177,7 +178,8 @@ mod tests {
     }
 
     /// The level mapping's characters are used first, for contents whose names match the mapping's spelling.
-    /// Next come the characters of the pool, in order. Later contents get the remaining characters.
+    /// Next come the characters of the pool, in order. Contents that appear later get the remaining
+    /// characters.
     #[test]
     fn characters_depend_on_the_order_of_appearance() {
         let game = Game::from_source(

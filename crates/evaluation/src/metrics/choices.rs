@@ -7,10 +7,11 @@ use serde::Serialize;
 /// The number of steps for each origin of a choice. The counts add up to the total number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
-    /// The number of steps chosen by an answer in the requested format, or by a player that does not answer
-    /// prompts.
+    /// The number of steps whose action was chosen by an answer in the requested format, or by a player that
+    /// does not answer prompts.
     pub valid: u64,
-    /// The number of steps chosen by an answer in a different format, read by a tolerant rule.
+    /// The number of steps whose action was chosen by an answer in a different format, read by a tolerant
+    /// rule.
     pub tolerant: u64,
     /// The number of steps in which the player did nothing because no answer could be read.
     pub invalid: u64,

@@ -12,7 +12,7 @@ pub(super) struct Commit {
     commit: Commitment,
     max_steps: u64,
     choice: Choice,
-    /// The number of steps in the plan played so far.
+    /// The number of steps of the plan that have been played.
     played: u64,
     due: u64,
 }
@@ -27,11 +27,11 @@ impl Commit {
     pub(super) fn begin(&mut self, event: &Event, steps: u64) -> Result<(), String> {
         let Event::Plan { step, actions, validity } = event else { return Ok(()) };
         if self.commit.is_one() {
-            return Err("there is a plan, but the player commits to one action".to_owned());
+            return Err("the log contains a plan, but the player commits to one action at a time".to_owned());
         }
         if self.played < self.due {
             return Err(format!(
-                "there is a new plan, but {} steps of the last plan are missing",
+                "a new plan begins, but {} steps of the previous plan are missing",
                 self.due - self.played
             ));
         }
@@ -46,8 +46,8 @@ impl Commit {
         Ok(())
     }
 
-    /// Compares a step in a state with the current plan. Returns `true` if the step itself is a decision,
-    /// because the player commits to one action.
+    /// Compares a step that was played in `state` with the current plan. Returns `true` if the step itself is
+    /// a decision, because the player commits to one action.
     pub(super) fn step(&mut self, event: &Event, game: &Game, state: &State) -> Result<bool, String> {
         let Event::Step { step, action, validity, .. } = event else { return Ok(false) };
         if self.commit.is_one() {

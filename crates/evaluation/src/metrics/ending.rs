@@ -50,7 +50,7 @@ impl EndingKind {
 pub struct Ending {
     /// The kind of ending.
     pub kind: EndingKind,
-    /// The sprite type that was removed or that appeared, if its sprite count lost the game.
+    /// The sprite type whose removal or appearance lost the game, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sprite: Option<String>,
     /// The other sprite type (or `EOS`) in the interaction that last removed or created the sprite. `None` if
@@ -75,20 +75,19 @@ const EDGE: &str = "EOS";
 /// The name for ticks as a counted quantity.
 const TICKS: &str = "ticks";
 
-/// The distance from meeting a winning termination. With several winning terminations, the nearest one
-/// counts.
+/// The distance from satisfying a winning termination. If there are several, the nearest one counts.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct GoalDistance {
     /// The names of the counted sprite types, as in the termination, or `ticks`.
     pub counted: String,
     /// The number of sprites left to remove or to create, or the number of ticks left to survive.
     pub left: u32,
-    /// The number left in the first state of the episode.
+    /// The value of `left` in the first state of the episode.
     pub of: u32,
 }
 
 impl GoalDistance {
-    /// Returns the remaining fraction of the distance.
+    /// Returns the fraction of the initial distance that remains.
     pub fn fraction(&self) -> f64 {
         f64::from(self.left) / f64::from(self.of.max(1))
     }
@@ -228,8 +227,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         let present = types.iter().find(|&&stype| last.alive(stype) > 0);
         return Ending { sprite: present.map(|&stype| game.name(stype).to_owned()), ..ending(kind) };
     }
-    // Effects on all sprites of a type also remove sprites other than the two that met. Among such
-    // interactions, the last possible cause counts.
+    // An effect on all sprites of a type can also remove sprites other than the two that met. If several such
+    // interactions are possible causes, the last one counts.
     let seen = tick.removals.iter().rev().find(|removal| types.contains(&removal.sprite));
     let seen = seen.map(|removal| (removal.line, removal.sprite, removal.by));
     let at_large =
@@ -249,8 +248,8 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
     }
 }
 
-/// Finds an interaction that may have removed sprites anywhere on the board, as a possible cause. Returns the
-/// interaction's line, the removed type (one of `types`), and the type that the interaction acted on.
+/// Returns the line of a meeting's interaction if the interaction may have removed sprites anywhere on the
+/// board. Also returns the removed type (one of `types`), and the type that the interaction acted on.
 fn removed_at_large(
     subject: &Subject,
     meeting: &Meeting,
@@ -282,7 +281,7 @@ fn distance(subject: &Subject, first: &State, last: &State) -> Option<GoalDistan
     open.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }
 
-/// Returns the source line around a span, without its comment and with runs of spaces collapsed.
+/// Returns the source line that contains a span, without its comment and with runs of spaces collapsed.
 fn written(source: &str, span: Span) -> String {
     let from = source.get(..span.start).map_or(0, |before| before.rfind('\n').map_or(0, |at| at + 1));
     let line = source.get(from..).unwrap_or("").lines().next().unwrap_or("");

@@ -190,7 +190,8 @@ impl EpisodeMetrics {
         }
     }
 
-    /// Returns `true` if the engine stopped the episode. Such an episode is no evidence about the player.
+    /// Returns `true` if the engine stopped the episode. Such an episode provides no evidence about the
+    /// player.
     pub fn is_stopped(&self) -> bool {
         self.ending.as_ref().is_some_and(|ending| ending.stop.is_some())
     }

@@ -33,7 +33,7 @@ pub enum Effect {
 ///
 /// ```
 /// use infinite_arcade_evaluation::metrics::{Effect::{Acted, Moved, Nothing}, meaningful};
-/// // Back and forth, into a wall, and on to where a box stands.
+/// // The avatar moves back and forth, bumps into a wall, walks on, and then pushes a box.
 /// let places = [0, 1, 0, 0, 1, 2].map(Some);
 /// let flags = meaningful(&[Moved, Moved, Nothing, Moved, Acted], &places);
 /// assert_eq!(flags, [false, false, false, true, true]);
@@ -101,7 +101,7 @@ mod tests {
         check("abcba", "mmmm", "0000");
         // Four moves form a loop around a block.
         check("abcda", "mmmm", "0000");
-        // A bump into a wall or a pause in between counts as a step in the window.
+        // A bump into a wall or a pause between the moves also counts as a step of the window.
         check("abba", "m.m", "000");
         check("abbba", "m..m", "0000");
         check("abbbba", "m...m", "10001");

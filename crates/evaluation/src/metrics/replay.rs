@@ -22,10 +22,10 @@ pub struct Replayed {
     pub actions: Vec<Action>,
     /// The change in score in each step.
     pub rewards: Vec<f64>,
-    /// The flags of the meaningful steps. Empty after [`replay_course`].
+    /// For each step, `true` if it is meaningful. Empty after [`replay_course`].
     pub meaningful: Vec<bool>,
-    /// The flags of the steps that are meaningful according to the reference code, which has no flag for the
-    /// last step. Empty after [`replay_course`].
+    /// For each step except the last, `true` if the reference code considers the step meaningful. Empty after
+    /// [`replay_course`].
     pub meaningful_as_code: Vec<bool>,
     /// The avatar's column and row before the first step and after each step.
     pub cells: Vec<Option<(i32, i32)>>,
@@ -40,10 +40,11 @@ pub struct Replayed {
     pub ending: Option<Ending>,
 }
 
-/// Replays a logged episode on its game, and compares every state hash, score, outcome and avatar position.
+/// Replays a logged episode on its game, and compares every state hash, score, outcome and avatar position
+/// with the log.
 ///
-/// Other recorded values are checked too: each step's validity must agree with the preceding answers, the
-/// last line with the final state, and the number of steps with the limit.
+/// Also checks that each step's validity agrees with the preceding answers, that the last line agrees with
+/// the final state, and that the number of steps is within the limit.
 ///
 /// Cost per step: two forward-model calls, a copy of the state and O(sprites log sprites).
 ///
@@ -266,7 +267,7 @@ fn compare_end(event: &Event, replayed: &Replayed, max_steps: u64) -> Result<(),
     }
 }
 
-/// Describes an episode's outcome, as in `won` or `not over`.
+/// Returns a phrase for an outcome, such as `won` or `not over`.
 fn in_words(outcome: Outcome) -> String {
     match outcome {
         Outcome::Ongoing => "not over".to_owned(),

@@ -21,17 +21,17 @@ use engine::Action;
 pub trait Agent: Send {
     /// Chooses the next action, or the next actions if the player commits to several ([`Turn::due`]).
     ///
-    /// Every message and payment must be added to the journal when it happens, before and after each request.
-    /// Then nothing is lost or paid for twice if the program is killed. Events recorded for this turn by an
-    /// interrupted run are already in the journal ([`Journal::pending`]), and must be used before making any
-    /// request.
+    /// Every message and every payment must be added to the journal as it happens, both before and after each
+    /// request. This way, nothing is lost or paid for twice if the program is killed. Events recorded for
+    /// this turn by an interrupted run are already in the journal ([`Journal::pending`]), and must be used
+    /// before making any request.
     ///
     /// # Errors
-    /// Returns an error if there is no choice through no fault of the player. The episode is then aborted.
+    /// Returns an error if no choice can be made and the player is not at fault. The episode is then aborted.
     fn act(&mut self, turn: &Turn<'_>, journal: &mut Journal) -> Result<Choice, Halt>;
 
-    /// Shows the agent a turn from an interrupted episode with its recorded choice, while the episode is
-    /// replayed from its log.
+    /// Shows the agent a turn from an interrupted episode, together with the recorded choice. This happens
+    /// while the episode is replayed from its log.
     ///
     /// # Errors
     /// Returns an error if the agent cannot resume the episode.
@@ -46,7 +46,7 @@ pub trait Agent: Send {
     /// answer questions. Answers already in the journal are used as in [`act`](Agent::act).
     ///
     /// # Errors
-    /// Returns an error if there is no answer through no fault of the player. The episode is then aborted.
+    /// Returns an error if there is no answer and the player is not at fault. The episode is then aborted.
     fn predict(
         &mut self,
         _last: &Turn<'_>,
@@ -73,9 +73,9 @@ pub struct Said {
 /// An agent's decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The actions to play, one per tick. If there are fewer than the player commits to, [`Action::Nil`] is
-    /// played instead. It also replaces actions that are unavailable when they are due. Actions beyond the
-    /// commitment are not played.
+    /// The actions to play, one per tick. If there are fewer actions than the player commits to,
+    /// [`Action::Nil`] is played in the remaining ticks. [`Action::Nil`] also replaces actions that are
+    /// unavailable when they are due. Actions beyond the commitment are not played.
     pub actions: Vec<Action>,
     /// The origin of the choice.
     pub validity: Validity,
@@ -118,7 +118,7 @@ base::named_enum! {
     }
 }
 
-/// The reason for a missing choice that is not the player's fault.
+/// The reason why there is no choice, if the player is not at fault.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Halt {
     /// Every try failed because of the network, the server or the player's process.

@@ -46,9 +46,9 @@ enum Log<'a> {
 type Text = (u8, Digest, Option<Digest>);
 
 impl ModelPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated
-    /// questions after answers without an available action. `samples` is the episode's seed, which must not
-    /// change when the episode is resumed.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of times that
+    /// a question is repeated after an answer without an available action. `samples` is the seed for sampling
+    /// the answers, which must not change when the episode is resumed.
     pub fn new(
         model: Arc<dyn Model>,
         prompter: Arc<Prompter>,
@@ -65,7 +65,8 @@ impl ModelPlayer {
         self.model = model;
     }
 
-    /// Performs a turn's attempts. Answers that are already in the log are not requested again.
+    /// Makes up to `reasks + 1` attempts at a turn. Answers that are already in the log are not requested
+    /// again.
     fn turn(&mut self, turn: &Turn<'_>, mut log: Log<'_>) -> Result<Choice, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -120,8 +121,8 @@ impl ModelPlayer {
         Ok(reply)
     }
 
-    /// Performs the attempts at a series's last question. Answers that are already in the log are not
-    /// requested again.
+    /// Makes up to `reasks + 1` attempts at the last question of a series. Answers that are already in the
+    /// log are not requested again.
     fn question(&mut self, last: &Turn<'_>, kinds: &[String], journal: &mut Journal) -> Result<Said, Halt> {
         let prompter = self.prompter.clone();
         let mut attempts = Vec::new();
@@ -176,7 +177,7 @@ impl ModelPlayer {
         self.model.chat(&request).map_err(Halt::from)
     }
 
-    /// Returns a message's index in the log. Each message is added to the log at its first use.
+    /// Returns a message's index in the log. Each message is added to the log when it is first used.
     fn number(&mut self, message: &ChatMessage, journal: &mut Journal) -> Result<u32, Halt> {
         for event in &journal.events()[self.read..] {
             if let Event::Message { id, role, text, image } = event {
@@ -200,7 +201,7 @@ impl ModelPlayer {
 impl Agent for ModelPlayer {
     fn begin(&mut self, task: &Task<'_>) {
         // Each level has its own log, in which texts are numbered from 0. The answers on later levels are
-        // drawn with new seeds.
+        // sampled with new seeds.
         if !task.is_practice() && task.series.is_some() {
             self.samples = task.chance().child("answers", 0);
         }
@@ -230,15 +231,15 @@ impl Agent for ModelPlayer {
         match again == *choice {
             true => Ok(()),
             false => Err(Halt::Log(format!(
-                "the answers of step {step} are now interpreted differently than in the log; resume with the \
-                 version of arcade that wrote it"
+                "the answers at step {step} are now interpreted differently than in the log; resume with the \
+                 version of arcade that wrote the log"
             ))),
         }
     }
 }
 
-/// Returns an answer's class and its actions. If there are no actions, the text states the reason, as a
-/// clause whose subject is the answer.
+/// Returns an answer's class and its actions. If there are no actions, the returned string states the reason,
+/// as a clause whose subject is the answer.
 fn classify(
     prompter: &Prompter,
     turn: &Turn<'_>,
@@ -258,7 +259,7 @@ fn classify(
 }
 
 /// Returns the class and the predictions of an answer to the last question. If there are no predictions, the
-/// text states the reason, as a clause whose subject is the answer.
+/// returned string states the reason, as a clause whose subject is the answer.
 fn classify_predictions(
     prompter: &Prompter,
     kinds: &[String],

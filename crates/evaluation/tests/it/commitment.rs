@@ -196,7 +196,7 @@ fn changed_plans_are_refused() {
         assert!(error.contains(expect), "{error}");
     };
     refused(&|log| drop(log.remove(1)), "step 0 does not belong to a plan");
-    refused(&|log| drop(log.remove(4)), "1 steps of the last plan are missing");
+    refused(&|log| drop(log.remove(4)), "1 steps of the previous plan are missing");
     refused(
         &|log| {
             let Event::Plan { actions, .. } = &mut log[1] else { panic!("{:?}", log[1]) };
@@ -209,7 +209,7 @@ fn changed_plans_are_refused() {
             let Event::Start { commit, .. } = &mut log[0] else { panic!("{:?}", log[0]) };
             *commit = Commitment::ONE;
         },
-        "there is a plan, but the player commits to one action",
+        "the log contains a plan, but the player commits to one action at a time",
     );
 }
 

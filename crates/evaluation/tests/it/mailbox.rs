@@ -271,7 +271,7 @@ fn foreign_folders_are_refused() {
     fs::remove_file(&folder).unwrap();
     fs::create_dir(&folder).unwrap();
     fs::write(folder.join("notes.txt"), "mine").unwrap();
-    assert!(refused("test", false).contains("not empty and not a mailbox"));
+    assert!(refused("test", false).contains("neither empty nor a mailbox"));
     fs::remove_file(folder.join("notes.txt")).unwrap();
 
     let first = open(&folder, "test", false).unwrap();
@@ -282,7 +282,7 @@ fn foreign_folders_are_refused() {
     // A mailbox without an episode does not belong to any evaluation.
     drop(open(&folder, "another", false).unwrap());
     fs::create_dir(folder.join("corridor-lvl0-run0")).unwrap();
-    assert!(refused("another", false).contains("continue it with --resume"));
+    assert!(refused("another", false).contains("continue the evaluation with --resume"));
     assert!(
         refused("test", true)
             .contains("this mailbox belongs to a different evaluation, with the player `alice`")

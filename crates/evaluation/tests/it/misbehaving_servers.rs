@@ -255,7 +255,7 @@ fn a_requested_wait_of_an_hour_is_refused() {
     let (connection, clock) = connect(&server, |_| {});
     let error = connection.model.chat(&request("Now?")).unwrap_err();
     assert_eq!(error.kind, ChatErrorKind::Infrastructure);
-    assert!(error.message.contains("with a requested wait of 3600 s"), "{error}");
+    assert!(error.message.contains("and the server requested a wait of 3600 s"), "{error}");
     assert!(clock.sleeps().is_empty());
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 /// The API version, sent in a header with every request.
 pub(super) const VERSION: &str = "2023-06-01";
 
-/// The default token limit for an answer. The API requires one.
+/// The default token limit for an answer. The API requires a limit.
 pub(super) const MAX_TOKENS: u32 = 8192;
 
 /// Returns a request's body. The system message is constant throughout an episode, so its end marks the end

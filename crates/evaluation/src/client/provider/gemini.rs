@@ -20,7 +20,7 @@ pub(super) fn body(request: &ChatRequest) -> Value {
 }
 
 fn generation(decoding: &Decoding) -> Value {
-    // Models without thinking reject requests that ask for thoughts.
+    // Models that do not support thinking reject requests for thoughts.
     let thinking = decoding.reasoning_effort.as_deref().map(|effort| match effort.parse::<u32>() {
         Ok(tokens) => json!({ "thinkingBudget": tokens, "includeThoughts": tokens > 0 }),
         Err(_) if effort == "none" => json!({ "thinkingBudget": 0 }),

@@ -56,7 +56,7 @@ impl Provider {
         }
     }
 
-    /// Returns the decoding to send: the requested settings plus those that the provider requires.
+    /// Returns the sampling settings to send: the requested ones, and those that the provider requires.
     ///
     /// # Errors
     /// Returns an error if the request uses a setting that the provider does not support, or an out-of-range
@@ -66,7 +66,7 @@ impl Provider {
         check_ranges(requested).map_err(EvaluationError::Malformed)?;
         if self == Provider::Anthropic {
             if requested.seed.is_some() {
-                let problem = "anthropic has no sampling seed; remove the option".to_owned();
+                let problem = "anthropic does not support a sampling seed; remove --sampling-seed".to_owned();
                 return Err(EvaluationError::Malformed(problem));
             }
             decoding.max_output_tokens.get_or_insert(anthropic::MAX_TOKENS);
@@ -131,7 +131,7 @@ fn check_ranges(decoding: &Decoding) -> Result<(), String> {
     in_range("--temperature", decoding.temperature, 2.0)?;
     in_range("--top-p", decoding.top_p, 1.0)?;
     match decoding.max_output_tokens {
-        Some(0) => Err("--max-output-tokens takes a number, at least 1: an answer needs tokens".to_owned()),
+        Some(0) => Err("--max-output-tokens must be at least 1, because an answer needs tokens".to_owned()),
         _ => Ok(()),
     }
 }

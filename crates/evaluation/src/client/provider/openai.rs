@@ -143,8 +143,8 @@ fn usage(counts: Counts) -> Usage {
     let cached = counts.prompt_tokens_details.and_then(|details| details.cached_tokens);
     let reasoning = counts.completion_tokens_details.and_then(|details| details.reasoning_tokens);
     let mut output = counts.completion_tokens;
-    // Some servers count the reasoning in addition to the answer, and others as part of it. The total shows
-    // which of the two applies.
+    // Some servers count reasoning tokens in addition to the answer's tokens, and others as part of them. The
+    // total shows which of the two applies.
     if let (Some(input), Some(answer), Some(reasoning), Some(total)) =
         (counts.prompt_tokens, output, reasoning, counts.total_tokens)
         && reasoning > 0

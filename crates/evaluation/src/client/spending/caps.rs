@@ -32,9 +32,10 @@ pub struct Spent {
 /// Enforces an evaluation's limits.
 ///
 /// A request is allowed if the total of its prompt, the prompts in flight and the amounts spent does not
-/// exceed the limits. The request is charged once, by the usage in its reply, or by a local count of its text
-/// if the reply reports no usage. An answer's cost is not known in advance, so the answers in flight can
-/// exceed a limit after it is reached. Failed tries are not charged, because their cost is not reported.
+/// exceed the limits. The request is charged once, according to the usage in its reply, or to a local count
+/// of its text if the reply reports no usage. An answer's cost is not known in advance, so the answers in
+/// flight can exceed a limit after it is reached. Failed tries are not charged, because their cost is not
+/// reported.
 #[derive(Debug)]
 pub struct Caps {
     limits: Limits,
@@ -60,7 +61,8 @@ impl Caps {
         self.ledger().spent
     }
 
-    /// Charges the amounts that an episode's log recorded in earlier program runs. Cached answers are free.
+    /// Charges the amounts that an episode's log recorded in earlier runs of the program. Cached answers are
+    /// free.
     pub fn charge_logged(&self, events: &[Event]) {
         let mut prompt = 0;
         for event in events {

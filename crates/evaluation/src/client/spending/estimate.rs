@@ -44,8 +44,8 @@ pub struct Estimate {
     pub requests: u64,
     /// The number of tokens in all prompts.
     pub input_tokens: u64,
-    /// The maximum number of prompt tokens served from the provider's cache. In each batch, these are the
-    /// prefixes of all requests except the first.
+    /// The maximum number of prompt tokens that the provider's cache can serve. In each batch, these are the
+    /// common prefixes of all requests except the first.
     pub cacheable_tokens: u64,
     /// The number of tokens in all answers.
     pub output_tokens: u64,

@@ -39,7 +39,7 @@ pub struct View {
 pub struct OpenPrompt {
     /// The prompt to answer.
     pub prompt: PromptFile,
-    /// The problem with an earlier answer to the prompt, which was set aside.
+    /// The problem with an earlier answer to the prompt, if an answer was set aside.
     pub problem: Option<String>,
 }
 
@@ -68,7 +68,7 @@ impl Desk {
             Some(marker) => Ok(Desk { folder: folder.to_owned(), player: marker.player }),
             None => Err(EvaluationError::malformed(
                 folder,
-                "there is no mailbox here; `arcade evaluate … --player mailbox:DIR` makes a mailbox in \
+                "there is no mailbox here; `arcade evaluate … --player mailbox:DIR` creates a mailbox in \
                  the folder DIR",
             )),
         }
@@ -89,8 +89,8 @@ impl Desk {
     /// # Errors
     /// Returns an error if a file cannot be read or is damaged.
     pub fn view(&self) -> Result<View, EvaluationError> {
-        // The lock is checked first, so that an evaluation that ends in between is not mistaken for an
-        // interrupted one.
+        // The lock is checked first, so that an evaluation that ends while the files are read is not mistaken
+        // for an interrupted one.
         let is_running = is_locked(&self.folder);
         let finished = read_data(&self.folder.join(FINISHED_FILE))?;
         let mut view = View { finished, is_running, ..View::default() };
@@ -112,7 +112,7 @@ impl Desk {
             view.answered += names.iter().filter(|name| is_answered(name)).count();
             let Some(name) = prompts.max() else { continue };
             let Some(prompt) = read_data::<PromptFile>(&folder.join(name))? else { continue };
-            // The prompt file states where its answer belongs, which must be this folder.
+            // A prompt file states its episode and its address, which must match the file's path.
             if prompt.episode == episode && prompt.address.prompt_data() == *name {
                 let problem = read_text(&folder.join(PROBLEM_FILE))?.map(|text| text.trim().to_owned());
                 view.waiting.push(OpenPrompt { prompt, problem });

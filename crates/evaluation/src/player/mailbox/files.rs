@@ -43,7 +43,7 @@ impl Address {
         format!("{self}.prompt.txt")
     }
 
-    /// Returns the name of the file that contains the prompt as data ([`PromptFile`]).
+    /// Returns the name of the file that contains the prompt as JSON ([`PromptFile`]).
     pub fn prompt_data(self) -> String {
         format!("{self}.prompt.json")
     }
@@ -81,7 +81,7 @@ impl FromStr for Address {
     }
 }
 
-/// A prompt as data.
+/// A prompt, as stored in its JSON file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PromptFile {
     /// The version of the file format.

@@ -23,7 +23,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 /// A function that shows notices to the user who started the evaluation.
 pub type Notices = Arc<dyn Fn(&str) + Send + Sync>;
 
-/// A mailbox, from the evaluation's side.
+/// A mailbox, as seen from the evaluation's side.
 pub struct Mailbox {
     pub(super) folder: PathBuf,
     pub(super) player: String,
@@ -66,8 +66,8 @@ impl Mailbox {
         Mailbox::open_as(folder, &settings.entrant.name, digest(settings), resume, notices)
     }
 
-    /// Opens a mailbox like [`open`](Mailbox::open), for work other than an evaluation. `player` is the name of
-    /// whoever answers, and `work` is a digest of the settings of the work.
+    /// Opens a mailbox like [`open`](Mailbox::open), for work other than an evaluation. `player` is the name of the
+    /// person or program that answers, and `work` is a digest of the work's settings.
     ///
     /// # Errors
     /// Returns an error in the same cases as [`open`](Mailbox::open).
@@ -90,7 +90,7 @@ impl Mailbox {
         let own = Marker { format: MAILBOX_FORMAT, player: player.clone(), evaluation: work };
         match &marker {
             None if !is_empty => {
-                return Err(wrong("the folder is not empty and not a mailbox; choose a new or empty folder"));
+                return Err(wrong("the folder is neither empty nor a mailbox; choose a new or empty folder"));
             }
             Some(other) if other.evaluation != own.evaluation && !is_empty => {
                 return Err(wrong(&format!(
@@ -101,8 +101,8 @@ impl Mailbox {
             }
             Some(_) if !is_empty && !resume => {
                 return Err(wrong(
-                    "the mailbox holds episodes of this evaluation: continue it with --resume, or choose \
-                     another folder",
+                    "the mailbox contains episodes of this evaluation: continue the evaluation with \
+                     --resume, or choose another folder",
                 ));
             }
             _ => {}

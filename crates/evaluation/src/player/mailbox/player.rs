@@ -65,8 +65,8 @@ struct Open {
 }
 
 impl MailboxPlayer {
-    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of repeated
-    /// questions after answers without an available action.
+    /// Creates a player for one episode of the prompter's game. `reasks` is the maximum number of times that a question
+    /// is repeated after an answer without an available action.
     pub fn new(
         mailbox: Arc<Mailbox>,
         task: &Task<'_>,
@@ -81,7 +81,7 @@ impl MailboxPlayer {
 }
 
 impl MailboxPlayer {
-    /// Opens the next prompt, for the given turn.
+    /// Sets the address and the actions of the next prompt, which belongs to the given turn.
     fn open(&self, turn: &Turn<'_>, journal: &Journal) {
         let answered = journal.pending().iter().filter(|event| matches!(event, Event::Reply(_))).count();
         let address = Address { step: turn.number, attempt: answered as u32 };
@@ -141,8 +141,8 @@ impl Agent for MailboxPlayer {
 }
 
 impl Mailbox {
-    /// Asks one question of a conversation that is not an episode, and waits for the answer. The files are in the
-    /// folder `conversation` of the mailbox. An answer at the same address that was given earlier is used at once.
+    /// Asks one question in a conversation that is not an episode, and waits for the answer. The files are in the
+    /// subfolder `conversation` of the mailbox. If the address already has an answer, that answer is used immediately.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read or written, or if [`stop`](Mailbox::stop) was called.
@@ -196,7 +196,7 @@ impl EpisodeFolder {
         }
     }
 
-    /// Removes all prompt files except those at address `kept`, and all earlier answers.
+    /// Removes all earlier answers, and all prompt files except those at address `kept`.
     fn clear(&self, kept: Option<Address>) -> Result<(), EvaluationError> {
         let names = names(&self.path)?;
         let is_removed = |name: &&String| match split(name) {
@@ -252,7 +252,7 @@ impl EpisodeFolder {
                 Look::Empty if is_told => last = None,
                 Look::Empty => {
                     (last, is_told) = (None, true);
-                    self.notice(&format!("{name} is empty so far: waiting for an answer"));
+                    self.notice(&format!("{name} is still empty: waiting for an answer"));
                 }
                 Look::Wrong(why) => {
                     last = None;
@@ -269,7 +269,7 @@ impl EpisodeFolder {
                         let at = error.utf8_error().valid_up_to();
                         self.set_aside(
                             &name,
-                            &format!("the file is not UTF-8 (byte {at}); save it as UTF-8"),
+                            &format!("the file is not valid UTF-8 (at byte {at}); save it as UTF-8"),
                         )?;
                         last = None;
                     }

@@ -22,16 +22,16 @@ const STDERR_TAIL: usize = 2000;
 /// The number of unread lines after which a process's writes block.
 const MAX_QUEUED_LINES: usize = 16;
 
-/// The time allowed for a process to exit after it is notified of the end.
+/// The time allowed for a process to exit after it is notified that the episode has ended.
 pub(super) const EXIT_TIME: Duration = Duration::from_secs(2);
 
 /// The time allowed for the reader threads to deliver a dead process's remaining output.
 const DRAIN_TIME: Duration = Duration::from_millis(500);
 
-/// The maximum number of polls for a guard to kill its program and exit. Including the pauses between polls,
-/// this takes at most ten seconds.
+/// The maximum number of times to check whether a guard has killed its program and exited. Including the
+/// pauses between checks, this takes at most ten seconds.
 const POLLS: u32 = 2000;
-/// The pause between polls for a guard.
+/// The pause between checks for a guard.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The environment variables that every process inherits if they are set. They specify the locations of
@@ -177,11 +177,11 @@ impl LineProcess {
         }
     }
 
-    /// Kills the process and all its descendants. Returns the exit status, if the process had already exited,
-    /// and the last part of its standard error.
+    /// Kills the process and all its descendants. Returns the exit status if the process had already exited,
+    /// and also the last part of its standard error.
     pub(super) fn kill(mut self) -> (Option<ExitStatus>, String) {
         if matches!(self.receive(Duration::ZERO), Err(NoLine::Closed)) {
-            // The process is already exiting, and will have its own exit status in a moment.
+            // The process is already exiting, so its own exit status will be available in a moment.
             thread::sleep(DRAIN_TIME / 10);
         }
         let status = self.end().filter(|status| status.code().is_some());

@@ -69,7 +69,7 @@ pub(super) enum Message<'a> {
     },
 }
 
-/// The marker of a turn played before an interruption.
+/// The fields that mark a turn as played before an interruption.
 #[derive(Debug, Serialize)]
 pub(super) struct Past {
     /// Always `true`. A past turn expects no answer.
@@ -104,7 +104,7 @@ pub(super) struct Seen<'a> {
     /// All visible sprites on the board, by name.
     sprites: Vec<Sprites<'a>>,
     avatar: Option<Avatar<'a>>,
-    /// The sprites that move in their own direction.
+    /// The sprites that move in a direction of their own.
     movers: Vec<Mover<'a>>,
     resources: BTreeMap<&'a str, i32>,
     /// The current score, or `None` if the score is shown only at the end.

@@ -50,7 +50,7 @@ const MAX_RECORDED: usize = 500;
 /// The maximum number of times that a question is repeated after an invalid answer.
 const MAX_REASKS: u32 = 1;
 
-/// The time after an unanswered `invalid` message at which a notice is shown.
+/// The time to wait for an answer to an `invalid` message before a notice is shown.
 const NOTICE_AFTER: Duration = Duration::from_secs(10);
 
 /// The maximum total size, in bytes, of stale answers (answers to earlier turns) skipped while waiting for an
@@ -107,15 +107,15 @@ struct Running {
 }
 
 impl Process {
-    /// Creates a player from a command line. The command line is split into words by the rules of shells, but
-    /// no shell is run.
+    /// Creates a player from a command line. The command line is split into words as in a shell, but no shell
+    /// is run.
     ///
     /// # Errors
     /// Returns an error if the command line is empty, or if its quotes do not match.
     pub fn new(command: &str, config: ProcessConfig) -> Result<Process, String> {
         let words = shlex::split(command).filter(|words| words.first().is_some_and(|word| !word.is_empty()));
         let words = words.ok_or_else(|| {
-            format!("`cmd:{command}` is not a command line; write the program and its arguments, quoted as for a shell")
+            format!("`cmd:{command}` is not a command line; write the program and its arguments, quoted as in a shell")
         })?;
         let notices = Notices(Arc::new(|_| ()));
         let (track, is_greeted) = (Track::Told, false);
@@ -138,12 +138,12 @@ impl Process {
         self
     }
 
-    /// Checks that the command line's program exists, and also its script if the program is an interpreter.
-    /// Call this before any other work depends on the program.
+    /// Checks that the command line's program exists. If the second word looks like a script, checks that the
+    /// script exists too. Call this before any other work depends on the program.
     ///
     /// # Errors
-    /// Returns an error if the check shows that the program cannot be started. The message suggests the name
-    /// that the user probably intended.
+    /// Returns an error if the check shows that the program cannot be started. The message suggests a similar
+    /// name, if there is one.
     #[cfg(unix)]
     pub fn find(&self) -> Result<(), String> {
         program::find(&self.words).map_err(|problem| format!("`cmd:{}`: {problem}", self.command))
@@ -179,7 +179,7 @@ impl Process {
         let (command, number, seconds) = (&self.command, turn.number, self.config.timeout.as_secs_f64());
         format!(
             "`{command}` has not answered since its answer at step {number} was rejected as `invalid`: each \
-             such message requires a new answer; waiting for up to {seconds} s"
+             `invalid` message requires a new answer; waiting for up to {seconds} s"
         )
     }
 
@@ -203,7 +203,7 @@ impl Process {
             }
             NoLine::Stale => {
                 let limit = MAX_STALE / 1024;
-                format!("wrote more than {limit} KiB of answers to earlier steps at step {number}")
+                format!("wrote more than {limit} KiB of outdated answers (to earlier steps) at step {number}")
             }
         };
         let (status, words) = self.running.take().map_or((None, String::new()), |it| it.process.kill());
@@ -412,7 +412,7 @@ struct Answer {
     actions: Option<Vec<String>>,
 }
 
-/// The optional turn number in an answer.
+/// The turn number that an answer may state.
 #[derive(Deserialize)]
 struct Addressed {
     turn: u64,
@@ -421,7 +421,7 @@ struct Addressed {
 /// Returns the next answer to the given turn.
 ///
 /// Answers to an earlier turn are skipped, so an agent that states its turns cannot get out of sync. Skipped
-/// answers count towards the timeout. Calls `notice` once, after `notice_after`.
+/// answers count towards the timeout. Calls `notice` once if no answer has arrived after `notice_after`.
 fn receive(
     process: &LineProcess,
     timeout: Duration,
@@ -461,8 +461,8 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
     }
     let names = |actions: &[Action]| actions.iter().map(ToString::to_string).join(", ");
     let expected = |problem: &str| match turn.commit.is_one() {
-        true => format!("{problem}; answer {{\"action\": …}} with one of {}", names(turn.actions)),
-        false => format!("{problem}; answer {{\"actions\": […]}} with up to {} actions", turn.due()),
+        true => format!("{problem}; answer with {{\"action\": …}}, using one of {}", names(turn.actions)),
+        false => format!("{problem}; answer with {{\"actions\": […]}}, using up to {} actions", turn.due()),
     };
     let Answer { action, actions } =
         serde_json::from_slice(answer).map_err(|error| expected(&error.to_string()))?;
@@ -491,8 +491,8 @@ fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
 /// Returns an answer's predictions, or a message stating the problem with the answer. `names` maps the names
 /// sent to the process to the game's own names.
 fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
-    const EXPECTED: &str = "answer {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]} with \
-                            kinds from the question";
+    const EXPECTED: &str = "answer with {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]}, \
+                            using kinds from the question";
     let answer: BTreeMap<String, Value> =
         serde_json::from_slice(answer).map_err(|error| format!("{error}; {EXPECTED}"))?;
     let own = |name: String| {

@@ -1,4 +1,4 @@
-//! A registry of all players' running processes, so that a program that is exiting can kill them first.
+//! A registry of the running processes of all players, so that this program can kill them before it exits.
 
 use rustix::process::{Pid, Signal, kill_process, kill_process_group};
 use std::collections::BTreeMap;
@@ -8,10 +8,10 @@ use std::time::Duration;
 
 static RUNNING: Mutex<Running> = Mutex::new(Running { is_over: false, players: BTreeMap::new() });
 
-/// The maximum number of polls until all players have exited. Including the pauses between polls, this takes
-/// at most three seconds.
+/// The maximum number of times to check whether all players have exited. Including the pauses between checks,
+/// this takes at most three seconds.
 const POLLS: u32 = 600;
-/// The pause between polls for running players.
+/// The pause between checks for running players.
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The registry of running players.

@@ -281,7 +281,10 @@ fn late_answers_do_not_extend_the_timeout() {
     let mut endless = Board::of(&format!("{begin} exec yes '{{\"turn\":0,\"action\":\"up\"}}'"));
     endless.decide().unwrap();
     let message = endless.failure();
-    assert!(message.contains("more than 1024 KiB of answers to earlier steps at step 1"), "{message}");
+    assert!(
+        message.contains("more than 1024 KiB of outdated answers (to earlier steps) at step 1"),
+        "{message}"
+    );
 }
 
 /// The user is notified before the timeout that the agent ignores `invalid` messages.
@@ -299,7 +302,7 @@ fn silence_after_an_invalid_answer_is_reported() {
     let shown = shown.lock().unwrap();
     assert_eq!(shown.len(), 1, "{shown:?}");
     assert!(shown[0].contains("has not answered since its answer at step 0 was rejected"), "{shown:?}");
-    // An answer in time needs no notice.
+    // No notice is shown if the answer arrives in time.
     let mut prompt = Board::of(
         "read hello; read turn; echo '{\"action\":\"fly\"}'; read invalid; echo '{\"action\":\"up\"}'; exec sleep 600",
     );
