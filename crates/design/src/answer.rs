@@ -1,6 +1,6 @@
 //! Reads ideas, rules and levels from a designer's answers.
 
-/// A fenced block of an answer.
+/// A fenced block in an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Block<'a> {
     /// The word after the opening fence, in lower case.
@@ -8,7 +8,7 @@ struct Block<'a> {
     lines: Vec<&'a str>,
 }
 
-/// The idea of a game.
+/// The idea for a game.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Idea {
     /// The game's name: lower-case words, joined by dashes.
@@ -68,10 +68,10 @@ fn labelled<'a>(line: &'a str, label: &str) -> Option<&'a str> {
     Some(line[start.len()..].trim_matches(['*', ':', ' ', '`']))
 }
 
-/// Reads the idea: a line `NAME: …`, and a text that begins with `IDEA: …` and ends with the answer.
+/// Reads the idea: a line `NAME: …`, and a text that begins with `IDEA: …` and continues to the end of the answer.
 ///
 /// # Errors
-/// Returns the missing part, as a sentence.
+/// Returns a sentence that states the missing part.
 pub(crate) fn idea(text: &str) -> Result<Idea, String> {
     let lines: Vec<&str> = text.lines().filter(|line| !line.trim().starts_with("```")).collect();
     let name = lines.iter().find_map(|line| labelled(line, "NAME:"));
@@ -90,8 +90,8 @@ pub(crate) fn rules(text: &str) -> Option<String> {
     blocks(text).iter().rfind(|block| block.is_rules()).map(Block::text)
 }
 
-/// Reads the levels: all blocks tagged `level`, or else all blocks that are not a game. Returns `None` if there are no
-/// levels.
+/// Reads the levels: all blocks tagged `level` or, if there are none, all blocks that do not contain a game. Returns
+/// `None` if there are no levels.
 pub(crate) fn levels(text: &str) -> Option<Levels> {
     let blocks = blocks(text);
     let others = || blocks.iter().filter(|block| !block.is_rules());

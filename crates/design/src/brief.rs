@@ -1,4 +1,4 @@
-//! The assignment of a designer.
+//! The assignment for a designer.
 
 use crate::known::KnownGame;
 use engine::{EFFECTS, SpriteClass, TERMINATIONS, nearest};
@@ -6,12 +6,12 @@ use generators::invention::MechanicInWords;
 use serde::{Deserialize, Serialize};
 use validators::Tier;
 
-/// The maximum number of levels of a game.
+/// The maximum number of levels per game.
 pub const MAX_LEVELS: usize = 20;
 /// The maximum length of a theme, in bytes.
 pub const MAX_THEME: usize = 500;
 
-/// The assignment of a designer, which is the same for all drafts of a run.
+/// The assignment for a designer, which is the same for all drafts in a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Brief {
@@ -32,10 +32,10 @@ impl Brief {
     /// Checks the values that a user typed.
     ///
     /// # Errors
-    /// Returns a message about the first problem, with a suggestion.
+    /// Returns a message that states the first problem and suggests a solution.
     pub fn check(&self) -> Result<(), String> {
         if !(1..=MAX_LEVELS).contains(&self.levels) {
-            return Err(format!("a game has 1 to {MAX_LEVELS} levels, not {}", self.levels));
+            return Err(format!("a game must have 1 to {MAX_LEVELS} levels, not {}", self.levels));
         }
         if let Some(theme) = &self.theme {
             if theme.trim().is_empty() {
@@ -61,10 +61,11 @@ fn check_word(word: &str) -> Result<(), String> {
         Some(near) => format!("did you mean `{near}`?"),
         None => "`arcade docs ontology` and `arcade docs mechanics` list them".to_owned(),
     };
-    Err(format!("`{word}` isn't a sprite class, an effect, a termination or a mechanic; {help}"))
+    Err(format!("`{word}` is not a sprite class, an effect, a termination or a mechanic; {help}"))
 }
 
-/// Returns the keywords that a required word stands for: those of a mechanic, or else the word itself.
+/// Returns the keywords that a required word stands for: those of a mechanic, or the word itself if it is not a
+/// mechanic.
 pub(crate) fn keywords(word: &str) -> Vec<String> {
     MechanicInWords::of(word).map_or_else(|| vec![word.to_owned()], |mechanic| mechanic.keywords)
 }

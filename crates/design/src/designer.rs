@@ -1,4 +1,4 @@
-//! The sources of answers.
+//! The sources of drafts.
 
 use crate::references::Reference;
 use base::Seed;
@@ -7,7 +7,8 @@ use evaluation::player::mailbox::{Address, EpisodeResult, Mailbox};
 use evaluation::{EvaluationError, Halt};
 use std::sync::Arc;
 
-/// A source of answers: a language model, or a mailbox in which a person or a program answers files.
+/// A source of drafts: a language model, a mailbox in which a person or a program answers questions, or a
+/// reference designer.
 #[derive(Clone)]
 pub enum Designer {
     /// A language model.
@@ -19,7 +20,7 @@ pub enum Designer {
     },
     /// A mailbox. Each draft is a conversation in its own folder.
     Mailbox(Arc<Mailbox>),
-    /// A reference designer, which is a program and answers no questions.
+    /// A reference designer, which is a program that answers no questions.
     Reference(Reference),
 }
 
@@ -27,7 +28,7 @@ impl Designer {
     /// Asks a question, and waits for the answer.
     ///
     /// # Errors
-    /// Returns an error if there is no answer through no fault of the designer.
+    /// Returns an error if the answer is missing for a reason that is not the designer's fault.
     pub(crate) fn ask(
         &self,
         conversation: &str,
@@ -45,7 +46,7 @@ impl Designer {
         }
     }
 
-    /// Reports in the mailbox that a conversation is over. Does nothing for models.
+    /// Reports in the mailbox that a conversation is over. Does nothing for designers without a mailbox.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written.

@@ -20,11 +20,11 @@ pub(crate) struct Dialogue<'a> {
 }
 
 impl Dialogue<'_> {
-    /// Asks a question. `is_usable` returns `true` for a text in the requested format.
+    /// Asks a question. `is_usable` returns `true` if a text is in the requested format.
     ///
     /// # Errors
     /// Returns an error if there is no answer, if the log cannot be written, or if the log contains a different
-    /// question in this position.
+    /// question at this position.
     pub(crate) fn ask(
         &mut self,
         stage: Stage,
@@ -37,8 +37,8 @@ impl Dialogue<'_> {
             && asked != messages
         {
             return Err(Halt::Log(format!(
-                "the log's question for stage `{stage}`, attempt {attempt}, differs from the one that follows from its \
-                 answers; use the version of arcade that wrote the log"
+                "the question in the log for stage `{stage}`, attempt {attempt}, differs from the question that follows \
+                 from the log's answers; use the version of arcade that wrote the log"
             )));
         }
         if let Some(reply) = self.recorded(step, attempt) {
@@ -83,7 +83,7 @@ impl Dialogue<'_> {
         Some(ids.iter().filter_map(message).collect())
     }
 
-    /// Logs a question before it is sent, unless an interrupted run has logged it.
+    /// Logs a question before it is sent, unless an interrupted run has already logged it.
     fn record_question(&mut self, step: u64, attempt: u32, messages: &[ChatMessage]) -> Result<(), Halt> {
         if self.asked(step, attempt).is_some() {
             return Ok(());

@@ -47,9 +47,9 @@ pub struct Draft {
     pub spending: Spending,
     /// The digest of all answers, in order.
     pub answers: Digest,
-    /// The last rules that compile.
+    /// The last rules that compiled.
     pub rules: Option<String>,
-    /// The last levels that load with these rules.
+    /// The last levels that loaded with these rules.
     pub levels: Vec<String>,
 }
 
@@ -65,7 +65,7 @@ pub struct DraftMeasures {
     pub loads: bool,
     /// The number of levels for which a win was found.
     pub won: usize,
-    /// `true` for each criterion that the game, or all of its levels, meet. Empty if the levels do not load.
+    /// For each criterion, `true` if the game or all of its levels meet it. Empty if the levels do not load.
     pub criteria: BTreeMap<Criterion, bool>,
     /// The tier of the last level, if a tier is required and a win was found.
     pub tier: Option<Tier>,
@@ -81,7 +81,7 @@ pub struct Spending {
     pub input_tokens: u64,
     /// The number of tokens in all answers.
     pub output_tokens: u64,
-    /// The price of all answers in US dollars, cached ones included, or `None` if the price is unknown.
+    /// The price of all answers in US dollars, including cached answers, or `None` if the price is unknown.
     pub cost: Option<f64>,
 }
 
@@ -92,7 +92,7 @@ impl Draft {
     }
 }
 
-/// Returns the digest of the answers in a log, in order. It depends on no time and no interruption.
+/// Returns the digest of the answers in a log, in order. It does not depend on times or interruptions.
 pub(crate) fn digest(events: &[Event]) -> Digest {
     let answers = events.iter().filter_map(|event| match event {
         Event::Reply(reply) => Some((reply.step, reply.attempt, &reply.text)),

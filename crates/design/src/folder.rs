@@ -14,15 +14,15 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// The folder of the accepted games, with one folder per game.
+/// The name of the folder of accepted games, which contains one folder per game.
 pub const GAMES_FOLDER: &str = "games";
-/// The file with the results of all drafts.
+/// The name of the file with the results of all drafts.
 pub const RESULTS_FILE: &str = "results.json";
 const SETTINGS_FILE: &str = "settings.json";
 const LOGS_FOLDER: &str = "logs";
 const DRAFTS_FOLDER: &str = "drafts";
 const LOCK_FILE: &str = ".lock";
-/// The file with the provenance of an accepted game, beside its rules and levels.
+/// The name of the file with an accepted game's provenance, stored beside its rules and levels.
 const PROVENANCE_FILE: &str = "design.json";
 /// The maximum size of a file other than a log, in bytes.
 const MAX_FILE: u64 = 1 << 26;
@@ -45,7 +45,7 @@ impl DesignFolder {
         disk::create_folder(path).map_err(DesignError::io("create", path))?;
         let mut entries = fs::read_dir(path).map_err(DesignError::io("list", path))?;
         if entries.next().is_some() {
-            let what = "the folder is not empty; choose a new folder, or continue a run of the same command with --resume";
+            let what = "the folder is not empty; choose a new folder, or pass --resume to continue a run of the same command";
             return Err(DesignError::malformed(path, what));
         }
         let lock = lock(path)?;
@@ -56,12 +56,12 @@ impl DesignFolder {
     /// Opens the folder of an interrupted run with the same settings.
     ///
     /// # Errors
-    /// Returns an error if the folder has no run, or a run with different settings.
+    /// Returns an error if the folder contains no run, or a run with different settings.
     pub fn resume(path: &Path, settings: &DesignSettings) -> Result<DesignFolder, DesignError> {
         let opened = DesignFolder::open(path)?;
         if opened.settings != *settings {
             let what = format!(
-                "the run in this folder has a different {}; repeat the command with which it began, or choose a new folder",
+                "the run in this folder has a different {}; repeat the command that started the run, or choose a new folder",
                 difference(&opened.settings, settings)
             );
             return Err(DesignError::malformed(path, &what));
@@ -72,7 +72,7 @@ impl DesignFolder {
     /// Opens a folder for reading.
     ///
     /// # Errors
-    /// Returns an error if the folder has no run, or a run of a different version.
+    /// Returns an error if the folder contains no run, or a run of a different version.
     pub fn open(path: &Path) -> Result<DesignFolder, DesignError> {
         let file = path.join(SETTINGS_FILE);
         let Some(settings) = read::<serde_json::Value>(&file)? else {
@@ -103,13 +103,13 @@ impl DesignFolder {
         self.path.join(LOGS_FOLDER).join(format!("{}.jsonl", conversation(number)))
     }
 
-    /// Creates the folder of the logs.
+    /// Creates the folder for the logs.
     pub(crate) fn begin_logs(&self) -> Result<(), DesignError> {
         let folder = self.path.join(LOGS_FOLDER);
         disk::create_folder_no_follow(&folder).map_err(DesignError::io("create", &folder))
     }
 
-    /// Returns the events of a draft's log, or `None` if the draft has not begun.
+    /// Returns the events in a draft's log, or `None` if the draft was not started.
     ///
     /// # Errors
     /// Returns an error if the log cannot be read.
@@ -121,7 +121,7 @@ impl DesignFolder {
         }
     }
 
-    /// Returns the events of all logs, which record the amounts spent by earlier runs.
+    /// Returns the events in all logs, which record the amounts that earlier runs spent.
     ///
     /// # Errors
     /// Returns an error if a log cannot be read.
@@ -145,7 +145,7 @@ impl DesignFolder {
         read(&self.draft_file(number))
     }
 
-    /// Stores a finished draft, after its game if it was accepted.
+    /// Stores a finished draft. If the draft was accepted, stores its game first.
     pub(crate) fn store(&self, draft: &Draft) -> Result<(), DesignError> {
         if draft.is_accepted() {
             self.store_game(draft)?;
@@ -155,8 +155,8 @@ impl DesignFolder {
         write(&self.draft_file(draft.number), draft)
     }
 
-    /// Writes an accepted game in the layout that every command accepts. The rules come last, so that a folder in
-    /// which levels are missing is not a game.
+    /// Writes an accepted game in the layout that every command accepts. The rules are written last, so that a folder
+    /// with missing levels does not count as a game.
     fn store_game(&self, draft: &Draft) -> Result<(), DesignError> {
         let (Some(name), Some(rules)) = (&draft.name, &draft.rules) else { return Ok(()) };
         let folder = self.path.join(GAMES_FOLDER).join(name);

@@ -46,7 +46,7 @@ impl Known {
         self.forms.push((name.to_owned(), GameForm::of(game)));
     }
 
-    /// Adds a game from each form of each kernel. Cost: a few milliseconds per kernel.
+    /// Adds one game for each form of each kernel. Cost: a few milliseconds per kernel.
     pub fn push_kernels(&mut self) {
         for kernel in KernelGenome::kernels() {
             for built in KernelGenome::all_of(kernel).iter().filter_map(|genome| genome.build().ok()) {
@@ -55,7 +55,7 @@ impl Known {
         }
     }
 
-    /// Returns the game nearest to the given one, or `None` if no game is known. Cost: O(known games × rules).
+    /// Returns the known game nearest to the given game, or `None` if no game is known. Cost: O(known games × rules).
     pub fn nearest(&self, game: &Game) -> Option<Nearest> {
         let form = GameForm::of(game);
         let apart = self.forms.iter().map(|(name, other)| (name, distance(&form, other)));

@@ -3,8 +3,8 @@
 //! A [`Designer`] writes [`Draft`]s in three stages: the idea, the rules and the levels. Each stage comes with a
 //! [`manual`]. After each answer, the designer receives the diagnostics, the verdicts and the gates as text, and may
 //! repair its answer up to [`MAX_REPAIRS`] times. A [`DesignFolder`] stores the settings, one log per draft, the
-//! finished drafts, and the accepted games. [`Reference`] designers are programs, with which a [`DesignerScore`] can be
-//! compared. Given the logs, everything else follows exactly, without the model.
+//! finished drafts, and the accepted games. [`Reference`] designers are programs whose scores can be compared with a
+//! model's [`DesignerScore`]. Everything except the answers can be reproduced exactly from the logs, without the model.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod answer;

@@ -30,13 +30,13 @@ pub struct Outcome {
 }
 
 /// Writes all drafts that are not finished, one after another, because each draft must differ from the earlier ones.
-/// `known` are the games from which all drafts must differ. `finished` is called after each draft.
+/// `known` contains the games from which all drafts must differ. `finished` is called after each draft.
 ///
-/// Costs at most twelve answers per draft, and one judgement of the game for each answer of the last stage.
+/// Costs at most twelve answers per draft, and one judgement of the game for each answer in the last stage.
 ///
 /// # Errors
-/// Returns an error if the folder's criteria are invalid, or a file cannot be read or written. If there is no answer
-/// through no fault of the designer, the run ends without an error, and the outcome states the reason.
+/// Returns an error if the folder's criteria are invalid, or a file cannot be read or written. If an answer is missing
+/// for a reason that is not the designer's fault, the run ends without an error, and the outcome states the reason.
 pub fn run(
     folder: &DesignFolder,
     designer: &Designer,
@@ -65,7 +65,7 @@ pub fn run(
     Ok(Outcome { results, halt })
 }
 
-/// Computes all finished drafts again from their logs, without a designer. Returns the numbers of the drafts that
+/// Recomputes all finished drafts from their logs, without a designer. Also returns the numbers of the drafts that
 /// differ from the stored ones.
 ///
 /// # Errors
@@ -108,7 +108,7 @@ impl<'a> Sequence<'a> {
         let settings = &folder.settings;
         if known.digest() != settings.known {
             return Err(DesignError::Malformed(
-                "the known games differ from those with which the run began; use the version of arcade that began it"
+                "the known games differ from those at the start of the run; use the version of arcade that started the run"
                     .to_owned(),
             ));
         }
@@ -171,7 +171,7 @@ impl<'a> Sequence<'a> {
     }
 }
 
-/// Reports in the mailbox how the draft ended.
+/// Reports the result of the draft in the mailbox.
 fn end(designer: &Designer, draft: &Draft) -> Result<(), DesignError> {
     let is_accepted = draft.is_accepted();
     let result = EpisodeResult {

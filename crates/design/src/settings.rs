@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use validators::{Criteria, CriterionSet};
 
-/// The version of the format of a folder of drafts.
+/// The version of the draft folder format.
 pub const FORMAT: u32 = 1;
 
 /// The settings of a run. They are stored in its folder, and a resumed run must have the same settings.
@@ -41,8 +41,8 @@ pub struct DesignSettings {
 }
 
 impl DesignSettings {
-    /// Returns the criteria that accepted games meet: those of releases, with all gates. `budget` is the number of
-    /// forward-model calls to find a win, for each level.
+    /// Returns the criteria for accepted games: those for releases, with all gates. `budget` is the number of
+    /// forward-model calls per level for finding a win.
     pub fn criteria(budget: u64) -> Criteria {
         let criteria = Criteria::default();
         Criteria { budget, ask: criteria.ask.with(CriterionSet::GATES), ..criteria }
@@ -51,7 +51,7 @@ impl DesignSettings {
     /// Returns the settings' digest. Distinct settings have distinct digests.
     ///
     /// # Panics
-    /// Panics if the criteria contain a number that JSON lacks. Checked criteria do not.
+    /// Panics if the criteria contain a number that JSON cannot represent, which checked criteria never do.
     pub fn digest(&self) -> Digest {
         canonical_digest(self).expect("checked settings are plain data")
     }

@@ -29,7 +29,7 @@ pub(crate) struct Context<'a> {
 /// Writes one draft.
 ///
 /// # Errors
-/// Returns the reason for a missing answer that is not the designer's fault.
+/// Returns an error if an answer is missing for a reason that is not the designer's fault.
 pub(crate) fn write(context: &Context<'_>, number: u64, dialogue: &mut Dialogue<'_>) -> Result<Draft, Halt> {
     let mut work = Work {
         context,
@@ -40,7 +40,7 @@ pub(crate) fn write(context: &Context<'_>, number: u64, dialogue: &mut Dialogue<
         game: GameSoFar::default(),
     };
     let end = match work.stages() {
-        // The server rejects only these questions, so the next draft may succeed.
+        // The server rejected only this draft's questions, so the next draft may succeed.
         Err(Halt::Unfit(message)) => Some(message),
         end => end?,
     };
@@ -63,7 +63,7 @@ pub(crate) fn write(context: &Context<'_>, number: u64, dialogue: &mut Dialogue<
     })
 }
 
-/// Judges one draft of a reference designer. Such a draft has no corrections.
+/// Judges one draft by a reference designer. Such a draft has no corrections.
 pub(crate) fn propose(context: &Context<'_>, number: u64, reference: Reference) -> Draft {
     let settings = context.settings;
     let mut game = GameSoFar::default();
@@ -215,8 +215,8 @@ impl GameSoFar {
         problem.map_or(Ok(()), Err)
     }
 
-    /// Judges a reference designer's proposal. Levels are judged even if the rules are not new, because the score of a
-    /// reference counts each step by itself.
+    /// Judges a reference designer's proposal. Levels are judged even if the rules are not new, because a reference
+    /// designer's score counts each step separately.
     fn accept_proposal(&mut self, proposal: Proposal, context: &Context<'_>) -> Result<(), Problem> {
         let checked = self.accept_source(&proposal.rules, &context.settings.brief, context.known);
         if self.rules.is_none() {

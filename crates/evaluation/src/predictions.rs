@@ -35,23 +35,23 @@ pub struct Grade {
     pub right: u64,
     /// The number of pairs of types and facts that the rules determine.
     pub of: u64,
-    /// The insight: a mean over facts. A fact's value is the fraction of types predicted among the types for
-    /// which the fact is true, minus the fraction predicted among all other types.
+    /// The mean insight over facts. A fact's insight is the fraction of types predicted among those for which
+    /// the fact is true, minus the fraction predicted among all other types.
     ///
     /// A fact counts only if it is true for some types and false for others. The insight ranges from −1 to 1.
-    /// It is 0 for predictions made without knowledge, and 1 for entirely correct predictions. It is `None`
-    /// if no fact counts.
+    /// It is 0 for predictions made without knowledge, and 1 for entirely correct predictions. `None` if no
+    /// fact counts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub insight: Option<f64>,
 }
 
-/// A game's sprite types, except avatars and floors, grouped by the effect of a touch. The effects are those
-/// for a player who does not know the rules and must learn them by touching.
+/// A game's sprite types, except avatars and floors, grouped by the effect of touching them. The groups
+/// matter to a player that does not know the rules and must learn them by touching.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Trials {
     /// The types that hurt the avatar or cost points when touched.
     pub costly: Vec<String>,
-    /// The types whose touch has an effect only if the avatar holds the required resource.
+    /// The types that react to a touch only if the avatar holds the required resource.
     pub gated: Vec<String>,
     /// The decoys: types other than walls and floors that have no effect when touched.
     pub idle: Vec<String>,
@@ -78,10 +78,10 @@ impl Trials {
     }
 }
 
-/// Returns `true` or `false` for a fact about a sprite type according to the rules. Returns `None` if the
-/// fact depends on more than the avatar's type and possessions.
+/// Returns the truth value of a fact about a sprite type according to the rules. Returns `None` if it depends
+/// on more than the avatar's type and possessions.
 ///
-/// If the avatar can have several types, each type is considered. Returns `None` if the results differ.
+/// If the avatar can have several types, returns `None` unless the truth value is the same for all of them.
 pub fn truth(analysis: &Analysis, kind: SpriteType, fact: TouchFact) -> Option<bool> {
     let each = analysis.avatars().iter().map(|avatar| fact_of(analysis.touch(avatar.stype, kind), fact));
     each.dedup().exactly_one().ok().flatten()
@@ -134,10 +134,10 @@ pub fn grade(analysis: &Analysis, kinds: &[String], predicted: &Predicted) -> Gr
     grade
 }
 
-/// Reads an answer about sprite types. For each fact, the last line such as `KILLS: t1, t4` or `STOPS: none`
-/// counts. `names` maps the names in the question to the game's own names.
+/// Reads an answer about sprite types. For each fact, the last line of the form `KILLS: t1, t4` or
+/// `STOPS: none` counts. `names` maps the names in the question to the game's own names.
 ///
-/// Emphasis, list markers, unknown types and text outside the lines are ignored. A semicolon also ends a
+/// Emphasis, list markers, unknown types and text outside these lines are ignored. A semicolon also ends a
 /// line.
 ///
 /// # Errors

@@ -26,8 +26,8 @@ pub struct Subject {
 
 impl Subject {
     /// Builds a subject from the texts of a game and its levels. Each level is given with its number, its
-    /// text, and the length of its shortest win in ticks, if proved optimal. If `facts` contains no taxonomy,
-    /// the taxonomy is derived from the rules.
+    /// text, and the length of its shortest win in ticks, if the win was proved to be optimal. If `facts`
+    /// contains no taxonomy, the taxonomy is derived from the rules.
     ///
     /// # Errors
     /// Returns the game's problems if the game does not compile. Otherwise, returns the problems of the first
@@ -55,7 +55,7 @@ impl Subject {
         Ok(Subject { id: id.to_owned(), source: source.to_owned(), game, analysis, levels, facts })
     }
 
-    /// Returns the hash of a level's first state under a fixed seed. Levels of renamed games have equal
+    /// Returns the hash of a level's first state under a fixed seed. Renaming a game does not change the
     /// hashes.
     pub(crate) fn first_state(&self, level: &SubjectLevel) -> StateHash {
         let start = || self.game.start(&level.level, Seed::from_text("start")).state_hash();
@@ -82,13 +82,13 @@ pub struct SubjectLevel {
     pub text: String,
     /// The level, checked against its game.
     pub level: Level,
-    /// The length of the shortest win in ticks, if proved optimal.
+    /// The length of the shortest win in ticks, if it was proved to be optimal.
     pub optimal_ticks: Option<usize>,
     /// The hash of the level's first state under a fixed seed, once it has been computed.
     first: OnceLock<StateHash>,
 }
 
-/// The facts about a game that reports state in addition to results.
+/// The facts about a game that reports state in addition to its results.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectFacts {

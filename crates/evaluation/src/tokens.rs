@@ -12,7 +12,7 @@ const PIECE: usize = 4096;
 
 /// Counts a text's tokens in the embedded vocabulary `o200k_base`.
 ///
-/// Every model family has its own vocabulary, whose counts are within about 20% of the returned one. Text
+/// Every model family has its own vocabulary. Its counts are within about 20% of the returned count. Text
 /// that looks like control tokens is counted as ordinary text. Cost: O(bytes). The first call in a process
 /// loads the vocabulary, which takes about 0.2 s.
 pub fn count(text: &str) -> u64 {
@@ -21,7 +21,8 @@ pub fn count(text: &str) -> u64 {
     let mut tokens = 0;
     while !rest.is_empty() {
         let window = &rest[..boundary(rest, PIECE)];
-        // A cut before a line or a word is preferred, so that the count equals that of the uncut text.
+        // If possible, the text is cut before a line or a word, so that the count equals that of the uncut
+        // text.
         let cut = window.rfind('\n').map(|at| at + 1).or_else(|| window.rfind(' ')).filter(|&at| at > 0);
         let piece = if window.len() == rest.len() { rest } else { &rest[..cut.unwrap_or(window.len())] };
         tokens += vocabulary.encode_ordinary(piece).len() as u64;

@@ -10,9 +10,8 @@ base::named_enum! {
         Told = "told",
         /// The rules in English, with meaningless names and characters.
         Masked = "masked",
-        /// Prompts without rules. Several levels of a game are played in one conversation. It shows the
-        /// visible effects of each action, and ends with a question about the rules. The first level is for
-        /// practice.
+        /// Prompts without rules. Several levels of a game are played in one conversation, which shows the visible
+        /// effects of each action and ends with a question about the rules. The first level is for practice.
         Discover = "discover",
         /// The rules in English, with the board only as an image.
         Vision = "vision",
@@ -53,7 +52,7 @@ impl Track {
         }
     }
 
-    /// Returns the maximum number of a game's levels played in one conversation, or 1 if levels are played
+    /// Returns the maximum number of levels of a game that are played in one conversation, or 1 if levels are played
     /// alone.
     pub const fn series(self) -> u64 {
         match self {
@@ -105,7 +104,7 @@ impl SeriesPlace {
         lengths.flat_map(of_series).collect()
     }
 
-    /// Returns `true` if the level is played to learn the rules, so that it does not count in results.
+    /// Returns `true` if the level is for practice, in which case it does not count in results.
     pub fn is_practice(self) -> bool {
         self.index == 0
     }

@@ -48,7 +48,7 @@ pub struct SeriesView<'a> {
 pub struct LevelEnd {
     /// The last observation of the level.
     pub last: Observation,
-    /// The observation before the last one, and the action that followed it.
+    /// The second-to-last observation, and the action that followed it.
     pub before: Option<(Observation, Action)>,
     /// The number of actions played in the level.
     pub steps: u64,
@@ -78,10 +78,10 @@ pub struct Played {
     pub reward: f64,
 }
 
-/// The part of an episode's recent past shown in the next turn.
+/// The part of an episode's recent past that the next turn shows.
 #[derive(Debug, Default)]
 pub(crate) struct Recent {
-    /// The observation before the last action, the action and its reward.
+    /// The observation before the last action, the action itself, and its reward.
     pub(crate) last: Option<(Observation, Action, f64)>,
     /// The actions played since the last decision.
     pub(crate) played: Vec<Played>,

@@ -34,7 +34,7 @@ fn a_cap_stops_a_run_and_more_money_continues_it() {
     assert_eq!((&stopped["finished"], &stopped["accepted"]), (&0.into(), &0.into()));
     assert!(stopped["halted"].as_str().unwrap().contains("--max-requests 2"), "{stopped}");
     let again = run(home.path(), &design(&url, &["--max-requests", "9"]), 2);
-    assert!(text(&again.stderr).contains("continue a run of the same command with --resume"));
+    assert!(text(&again.stderr).contains("pass --resume to continue a run of the same command"));
     let done = json(&run(home.path(), &design(&url, &["--max-requests", "9", "--resume"]), 0));
     assert_eq!((&done["finished"], &done["spent"]["requests"]), (&1.into(), &5.into()));
     assert_eq!(server.received().len(), 5, "no answer is paid for twice");

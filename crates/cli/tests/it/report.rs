@@ -290,7 +290,7 @@ fn results_folders_are_read_within_bounds() {
     tampered(home.path(), "log", "episodes/lanterns-lvl0-run0.jsonl", not_utf8);
     tampered(home.path(), "long", "games/lanterns/game.vgdl", |_| vec![b' '; 1 << 18]);
     for (results, words) in [
-        ("runs", &["runs/evaluation.json", "`runs` is 1000000000, on 2 levels", "1000000 episodes"][..]),
+        ("runs", &["runs/evaluation.json", "`runs` is 1000000000 on 2 levels", "1000000 episodes"][..]),
         ("more-runs", &["`runs` is 18446744073709551615"]),
         ("no-runs", &["`runs` is 0"]),
         ("steps", &["steps/evaluation.json", "`max_steps` is 18446744073709551615"]),

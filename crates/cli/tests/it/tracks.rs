@@ -62,7 +62,7 @@ fn a_model_discovers_the_rules_and_is_reported_apart() {
     ] {
         assert!(report.contains(words), "{words}: {report}");
     }
-    assert!(report.contains("## Predictions of the rules"), "{report}");
+    assert!(report.contains("## Predictions about the rules"), "{report}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The manual of each stage, as a text that a model reads. The lists of words come from the pages of the ontology.
+//! The manual for each stage, as text that a model reads. The lists of words come from the pages of the ontology.
 
 use crate::answer::Idea;
 use crate::brief::{Brief, keywords};
@@ -15,7 +15,7 @@ pub const EXAMPLE_GAME: &str = include_str!("example/game.vgdl");
 /// A level of the manual's example.
 pub const EXAMPLE_LEVEL: &str = include_str!("example/lvl0.txt");
 
-/// The words whose parameters the manual of the rules lists.
+/// The words whose parameters are listed in the manual for the rules.
 const DETAILED: [&str; 14] = [
     "Resource",
     "Missile",
@@ -33,7 +33,8 @@ const DETAILED: [&str; 14] = [
     "SpriteCounter",
 ];
 
-/// The words that the manual omits: they belong to continuous physics, or other words do the same better.
+/// The words that the manual omits, because they belong to continuous physics, or because other words serve the same
+/// purpose better.
 const OMITTED: [&str; 18] = [
     "Walker",
     "WalkerJumper",
@@ -55,7 +56,7 @@ const OMITTED: [&str; 18] = [
     "StopCounter",
 ];
 
-/// Returns the message that opens the first stage. `earlier` are the drafts from which the game must differ.
+/// Returns the message that opens the first stage. `earlier` contains the drafts from which the game must differ.
 pub(crate) fn idea(brief: &Brief, criteria: &Criteria, earlier: &[Draft]) -> String {
     let mut text = filled(
         include_str!("idea.md"),
@@ -155,7 +156,7 @@ fn told(idea: &Idea) -> String {
     format!("`{}`: {}", idea.name, idea.text)
 }
 
-/// Returns the user's wishes as a section, or an empty text if there are none.
+/// Returns the user's requirements as a section, or an empty text if there are none.
 fn assignment(brief: &Brief) -> String {
     let mut lines = Vec::new();
     if let Some(theme) = &brief.theme {
@@ -185,7 +186,7 @@ fn requirement(word: &str) -> String {
     )
 }
 
-/// Lists words with the first sentences of their pages.
+/// Lists words, each with the first sentence of its page.
 fn words<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     let line = |word: &str| {
         let summary = editor::summary(word)?;
@@ -203,7 +204,7 @@ fn classes() -> String {
     words(SpriteClass::ALL.iter().map(|class| class.name()))
 }
 
-/// Lists the questions of the criteria that are asked.
+/// Lists the questions of the checked criteria that `is_meant` selects.
 fn questions(criteria: &Criteria, is_meant: impl Fn(Criterion) -> bool) -> String {
     let asked = criteria.ask.iter().filter(|&criterion| is_meant(criterion));
     asked.map(|criterion| format!("- {criterion}: {}", criterion.question())).collect::<Vec<_>>().join("\n")

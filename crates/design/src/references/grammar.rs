@@ -1,4 +1,4 @@
-//! Random games from a grammar of VGDL: every choice among the alternatives of a rule is equally likely.
+//! Random games from a grammar of VGDL. All alternatives of a grammar rule are equally likely.
 
 use super::Proposal;
 use base::{Sampler, Seed};
@@ -8,7 +8,7 @@ use std::fmt::Write;
 const TYPES: (usize, usize) = (3, 6);
 /// The minimum and maximum number of interactions.
 const RULES: (usize, usize) = (5, 10);
-/// The columns and rows of a level, walls included.
+/// The numbers of columns and rows in a level, including walls.
 const SIZE: (usize, usize) = (12, 8);
 /// The fraction of cells with a sprite, as numerator and denominator.
 const FILLED: (usize, usize) = (1, 8);
@@ -82,7 +82,7 @@ fn rules(types: &[String], sampler: &mut Sampler) -> String {
     )
 }
 
-/// Draws an alternative, and a type for its `T`.
+/// Draws an alternative, and replaces its `T` with a random type.
 fn drawn(alternatives: &[&str], types: &[String], sampler: &mut Sampler) -> String {
     let chosen = *sampler.choose(alternatives);
     chosen.replace("=T", &format!("={}", sampler.choose(types)))

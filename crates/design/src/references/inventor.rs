@@ -1,4 +1,4 @@
-//! Games from merged mechanics, with a searched board for each level.
+//! Games from merged mechanics, with a board found by search for each level.
 
 use super::Proposal;
 use base::Seed;

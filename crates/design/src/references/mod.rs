@@ -1,4 +1,4 @@
-//! Reference designers. Their scores are the floor and the comparison for language models.
+//! Reference designers. Their scores serve as a floor and as a comparison for the scores of language models.
 
 mod grammar;
 mod inventor;
@@ -19,7 +19,7 @@ base::named_enum! {
     }
 }
 
-/// A game that nobody has checked.
+/// A game that has not been checked.
 pub(crate) struct Proposal {
     /// The rules, as VGDL text.
     pub(crate) rules: String,

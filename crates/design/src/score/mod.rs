@@ -1,4 +1,4 @@
-//! A designer's score: the rates of its drafts that reach each step, and the costs per accepted game.
+//! A designer's score: the fraction of its drafts that reach each step, and the costs per accepted game.
 
 mod table;
 
@@ -13,11 +13,11 @@ use serde::Serialize;
 use statistics::{Interval, Z95, bootstrap, quantile, wilson};
 use validators::Criterion;
 
-/// The number of resamples of the intervals for costs per accepted game.
+/// The number of bootstrap resamples for the intervals of the costs per accepted game.
 const RESAMPLES: usize = 2000;
 
-/// The score of a designer, over all finished drafts of a run. All intervals are 95% intervals over drafts, which
-/// count as independent. Each draft is shown the earlier ideas, so the intervals are approximate.
+/// The score of a designer over all finished drafts in a run. All intervals are 95% intervals over drafts, which are
+/// treated as independent. They are approximate, because the designer is shown the ideas of its earlier drafts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DesignerScore {
     /// The designer's name.
@@ -54,12 +54,12 @@ pub struct CostPerGame {
     pub value: Option<f64>,
     /// The bootstrap interval's lower bound, or `None` if the cost is unknown.
     pub low: Option<f64>,
-    /// The bootstrap interval's upper bound, or `None` if too few games were accepted for one.
+    /// The bootstrap interval's upper bound, or `None` if too few games were accepted to compute it.
     pub high: Option<f64>,
 }
 
 impl DesignerScore {
-    /// Computes the score of the finished drafts in a folder.
+    /// Computes the score over the finished drafts in a folder.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read.
@@ -71,7 +71,7 @@ impl DesignerScore {
         Ok(DesignerScore::of(&folder.settings, &drafts))
     }
 
-    /// Computes the score of drafts.
+    /// Computes the score over the given drafts.
     pub fn of(settings: &DesignSettings, drafts: &[Draft]) -> DesignerScore {
         let of = drafts.len() as u64;
         let rate = |step: &str, holds: &dyn Fn(&Draft) -> bool| {

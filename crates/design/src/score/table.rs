@@ -3,8 +3,8 @@
 use super::DesignerScore;
 use report::{Table, TableCell};
 
-/// Returns a table with one column per designer: the fraction of drafts that reach each step in percent, and the costs
-/// per accepted game, with 95% intervals.
+/// Returns a table with one column per designer: the percentage of drafts that reach each step, and the costs per
+/// accepted game, with 95% intervals.
 pub fn table(scores: &[DesignerScore]) -> Table {
     let names = scores.iter().map(|score| score.designer.as_str());
     let columns: Vec<&str> = ["measure"].into_iter().chain(names).collect();

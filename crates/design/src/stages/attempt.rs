@@ -1,4 +1,4 @@
-//! The best attempt to play a level, as text.
+//! The best attempt at a level, as text.
 
 use agents::{Budget, Limits, NearestGoal, play};
 use base::Seed;
@@ -7,13 +7,14 @@ use itertools::Itertools;
 use std::fmt::Write;
 use validators::{Board, Report};
 
-/// The maximum number of ticks of the attempt that is played in addition to those of the judges.
+/// The maximum number of ticks in the attempt that is played in addition to the judges' attempts.
 const TICKS: usize = 200;
-/// The maximum number of groups of equal actions to list.
+/// The maximum number of groups of equal consecutive actions to list.
 const MOST_GROUPS: usize = 60;
 
-/// Returns the best attempt among the judges' episodes and one episode of a player that walks to the nearest goal: the
-/// shortest win, or else the attempt with the highest score and, among those, the longest one. Cost: one episode.
+/// Returns the best attempt at a level: the judges' shortest win or, if there is none, the best of the judges' episodes
+/// and one episode of a player that walks to the nearest goal. Wins rank first, then higher scores, and then longer
+/// episodes. Cost: one episode.
 pub(super) fn best(game: &Game, level: &Level, report: &Report, seed: Seed) -> Episode {
     if let Some(win) = &report.witness {
         return win.clone();

@@ -1,10 +1,10 @@
-//! The check of an idea.
+//! Checks ideas.
 
 use super::Problem;
 use crate::answer::{self, Idea};
 use crate::draft::Draft;
 
-/// The minimum and maximum number of words of an idea. The prompt states a slightly smaller maximum.
+/// The minimum and maximum number of words in an idea. The prompt states a slightly smaller maximum.
 const WORDS: (usize, usize) = (15, 200);
 /// The maximum length of a name, in characters.
 const MAX_NAME: usize = 40;

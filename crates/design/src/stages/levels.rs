@@ -1,4 +1,4 @@
-//! The check of levels: they load, they can be won, and the game passes the gates.
+//! Checks levels: they must load and be winnable, and the game must pass the gates.
 
 use super::rules::{GAME_FILE, Rules, shown, warnings};
 use super::{Problem, attempt};
@@ -24,7 +24,7 @@ pub(crate) struct Loaded {
 pub(crate) struct Verdicts {
     /// The number of levels with a known win.
     pub(crate) won: usize,
-    /// `true` for each criterion that the game, or all of its levels, meet.
+    /// For each criterion, `true` if the game or all of its levels meet it.
     pub(crate) criteria: BTreeMap<Criterion, bool>,
     /// The tier of the last level, if a tier is required and the level has a known win.
     pub(crate) tier: Option<Tier>,
@@ -65,7 +65,7 @@ pub(crate) fn load(texts: Vec<String>, rules: &Rules, brief: &Brief) -> Result<L
     Ok(Loaded { texts, levels })
 }
 
-/// Judges a game. Costs the criteria's budgets for each level, and those of the gates.
+/// Judges a game. Cost: the criteria's budgets for each level, and the gates' budgets.
 pub(crate) fn judge(rules: &Rules, loaded: &Loaded, brief: &Brief, criteria: &CheckedCriteria) -> Verdicts {
     let seed = Seed::from_text(SEED);
     let panel = Panel::new(criteria.clone(), Effort::Calls(criteria.budget));
@@ -85,7 +85,7 @@ pub(crate) fn judge(rules: &Rules, loaded: &Loaded, brief: &Brief, criteria: &Ch
     }
 }
 
-/// Returns the criteria, each with `true` if the game or all its levels meet it.
+/// Returns the criteria, each with `true` if the game or all of its levels meet it.
 fn met(report: &GameReport) -> BTreeMap<Criterion, bool> {
     let mut met = BTreeMap::new();
     for judgement in report.levels.iter().flat_map(|level| &level.judgements).chain(&report.judgements) {
@@ -102,7 +102,8 @@ fn last_tier(rules: &Rules, loaded: &Loaded, report: &GameReport, seed: Seed) ->
     Some(demand.tier())
 }
 
-/// Describes why a game is not accepted: the review that people get, and the best attempts on the levels that fail.
+/// Describes why a game is not accepted, with the same review that users get, and with the best attempts at the levels
+/// that fail.
 fn problem(rules: &Rules, loaded: &Loaded, report: &GameReport, tiers: Option<(Tier, Tier)>) -> Problem {
     let names: Vec<String> = (0..loaded.levels.len()).map(file).collect();
     let boards: Vec<Vec<String>> =
@@ -122,7 +123,7 @@ fn problem(rules: &Rules, loaded: &Loaded, report: &GameReport, tiers: Option<(T
         warnings: &warnings,
     };
     let mut text = review.text(true);
-    // If only the game as a whole fails, all wins are evidence.
+    // If only the game as a whole fails, the wins on all levels are shown as evidence.
     let all_pass = report.levels.iter().all(Report::passes);
     let failing = report.levels.iter().enumerate().filter(|(_, level)| all_pass || !level.passes());
     for (at, judged) in failing {

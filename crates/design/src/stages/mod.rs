@@ -28,26 +28,26 @@ impl fmt::Display for Stage {
 /// The problems with an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Problem {
-    /// One line for tables.
+    /// The summary for tables, in one line.
     pub(crate) summary: String,
     /// The complete text for the designer.
     pub(crate) text: String,
 }
 
 impl Problem {
-    /// Creates a problem that one paragraph describes.
+    /// Creates a problem that is described by one paragraph.
     pub(crate) fn plain(text: impl Into<String>) -> Problem {
         let text = text.into();
         Problem { summary: text.clone(), text }
     }
 
-    /// Creates a problem with an introduction, and a report in a fixed-width font.
+    /// Creates a problem that is described by an introduction and a report in a fenced block.
     pub(crate) fn reported(summary: impl Into<String>, introduction: &str, report: &str) -> Problem {
         let text = format!("{introduction}\n\n```text\n{}\n```", report.trim_end());
         Problem { summary: summary.into(), text }
     }
 
-    /// Returns the message to the designer. `left` is the number of corrections that remain, this one included.
+    /// Returns the message to the designer. `left` is the number of remaining corrections, including this one.
     pub(crate) fn message(&self, left: u32) -> String {
         let left = match left {
             1 => "This is the last correction.".to_owned(),

@@ -1,4 +1,4 @@
-//! The check of rules: they compile, they use the required words, and they are new.
+//! Checks rules: they must compile, use the required words, and be new.
 
 use super::Problem;
 use crate::brief::{Brief, keywords, uses};
@@ -51,7 +51,7 @@ pub(crate) fn check(rules: &Rules, brief: &Brief) -> Result<(), Problem> {
     }
 }
 
-/// Returns the warnings about rules as text, or an empty text.
+/// Returns the warnings about rules, one text per warning.
 pub(crate) fn warnings(rules: &Rules) -> Vec<String> {
     let word = |warning| editor::one_in_words(shown(GAME_FILE, &rules.source), warning);
     rules.game.warnings().iter().map(word).collect()

@@ -99,7 +99,7 @@ fn a_log_replays_to_the_same_drafts() {
     let changed = fs::read_to_string(&log).unwrap().replace("Chasr", "Chazer");
     fs::write(&log, changed).unwrap();
     let problem = replay(&folder, &Known::default()).unwrap_err().to_string();
-    assert!(problem.contains("differs from the one that follows from its answers"), "{problem}");
+    assert!(problem.contains("differs from the question that follows from the log's answers"), "{problem}");
 }
 
 #[test]

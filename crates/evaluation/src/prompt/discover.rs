@@ -1,4 +1,4 @@
-//! The prompt parts that only the track without rules has: the end of a level and the last question.
+//! The prompt parts that only the track without rules uses: the end of a level, and the last question.
 
 use super::{Attempt, Past, Prompt, PromptStyle, Prompter, data};
 use crate::encoding;
@@ -19,7 +19,7 @@ impl Prompter {
 
     /// Returns the conversation that ends with the last question in a series. The question follows the last
     /// turn of the last level, and asks what touching each of the given sprite types does. `kinds` contains
-    /// the game's own names, and the question uses the names shown in prompts.
+    /// the game's own names. The question uses the names shown in prompts.
     pub fn question(&self, last: &Turn<'_>, kinds: &[String], past: &[Past], attempts: &[Attempt]) -> Prompt {
         let end = LevelEnd {
             last: last.observation.clone(),

@@ -1,10 +1,10 @@
-//! An episode's past turns, and how many of them a conversation still shows.
+//! An episode's past turns, and the choice of those that a conversation still shows.
 
 use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// The maximum number of bytes to show from the end of an answer in later turns.
+/// The maximum number of bytes of an answer that later turns show. Longer answers are cut at the start.
 const MAX_ANSWER: usize = 2_000;
 
 /// The text that replaces an empty answer, because providers reject empty messages.
@@ -57,7 +57,7 @@ pub(super) fn kept(attempts: &[Attempt]) -> Vec<Attempt> {
     attempts.iter().map(kept).collect()
 }
 
-/// Returns the number of tokens in a message, including its frame.
+/// Returns the number of tokens in a message, including the overhead per message.
 pub(super) fn cost(text: &str) -> u64 {
     tokens::count(text) + tokens::PER_MESSAGE
 }

@@ -52,8 +52,8 @@ const TEMPLATES: [(&str, &str); 6] = [
     ("complaint.j2", include_str!("templates/complaint.j2")),
 ];
 
-/// The templates for [`PromptStyle::Discover`]. They are kept out of the shared list, because the digests of
-/// the other styles cover all templates in it.
+/// The templates for [`PromptStyle::Discover`]. They are not in the shared list, because the digests of the
+/// other styles cover every template in that list.
 const DISCOVER: [(&str, &str); 4] = [
     ("discover_static.j2", include_str!("templates/discover_static.j2")),
     ("discover_turn.j2", include_str!("templates/discover_turn.j2")),
@@ -99,7 +99,7 @@ pub struct PromptTokens {
     pub turn: Vec<PartTokens>,
     /// The number of tokens in earlier turns, and in this turn's earlier answers.
     pub history: u64,
-    /// The total number of tokens, including message frames.
+    /// The total number of tokens, including the overhead per message.
     pub total: u64,
 }
 
@@ -122,7 +122,7 @@ pub struct Prompt {
     pub messages: Vec<ChatMessage>,
     /// The text of the newest turn, to be passed to [`Past::new`] when the turn is over.
     pub shown: String,
-    /// The number of turns dropped, oldest first.
+    /// The number of turns that were dropped. The oldest turns are dropped first.
     pub left_out: usize,
     /// The prompt's token counts.
     pub tokens: PromptTokens,
@@ -234,10 +234,10 @@ impl Prompter {
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
 
-    /// Returns the conversation at a turn. `past` contains all previous turns of the episode, which zero-shot
-    /// mode omits. `attempts` contains this turn's unusable answers, with the messages about them. Images are
-    /// shown only for the newest turn. If a prompt exceeds the budget, entire turns are dropped, but never
-    /// the newest turn.
+    /// Returns the conversation at a turn. `past` contains all previous turns of the episode, which are
+    /// omitted in zero-shot mode. `attempts` contains this turn's unusable answers, with the messages about
+    /// them. Images are shown only for the newest turn. If a prompt exceeds the budget, entire turns are
+    /// dropped, but never the newest turn.
     pub fn prompt(&self, turn: &Turn<'_>, past: &[Past], attempts: &[Attempt]) -> Prompt {
         self.conversation(self.write_turn(turn, past), self.picture(turn), past, attempts)
     }
@@ -322,7 +322,7 @@ impl Prompter {
         format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
     }
 
-    /// Reads a turn's answer: one action, or a plan with the actions due.
+    /// Reads a turn's answer: one action, or a plan with as many actions as are due.
     pub fn read(&self, answer: &str, turn: &Turn<'_>) -> Reading<Vec<Action>> {
         if !self.commit.is_one() {
             return answer::read_plan(answer, turn.due(), &self.actions);

@@ -14,7 +14,7 @@ pub struct PromptSettings {
     pub mode: Mode,
     /// The form in which the rules are shown.
     pub rules: Rules,
-    /// `true` if sprite types have meaningless names in rules, legend and boards.
+    /// `true` if sprite types have meaningless names in the rules, the legend and the boards.
     pub masked_names: bool,
     /// `true` if all types, including walls and the avatar, have meaningless names and characters, drawn anew
     /// for each game.
@@ -34,7 +34,8 @@ pub struct PromptSettings {
     /// `true` if each avatar state has its own character on the board, and no character is marked as the
     /// player's.
     pub identity_tracking: bool,
-    /// The number that selects the board's shuffled characters. `None` keeps the original characters.
+    /// The number that determines how the board's characters are shuffled. `None` keeps the original
+    /// characters.
     pub shuffled_symbols: Option<u64>,
     /// Advice to insert verbatim into the prompt.
     pub strategy: Option<String>,
@@ -110,9 +111,9 @@ pub enum PromptStyle {
     /// The suite's own style.
     #[default]
     Standard,
-    /// The style of the reference's pipeline (`spec/06` §1.4), reworded. As there, the prompts have the same
-    /// parts in the same order, numbered actions, and a list of every cell. The switches for legend,
-    /// meanings, position, feedback and encodings have no effect.
+    /// The style of the reference's pipeline (`spec/06` §1.4), in different words. The prompts have the same
+    /// parts in the same order as the originals, with numbered actions and a list of every cell. The switches
+    /// for legend, meanings, position, feedback and encodings have no effect.
     Reference,
     /// The style of [`Track::Discover`](crate::Track::Discover), which shows visible events but no rules and
     /// no score. The board has rulers and neutral names. The switches for legend, meanings, position,
@@ -158,7 +159,7 @@ pub struct Encodings {
     pub grounding: bool,
     /// All sprites with their positions, including walls.
     pub coordinates: bool,
-    /// A second copy of the grid, rotated by a quarter turn.
+    /// A second copy of the grid, rotated by 90 degrees.
     pub rotated: bool,
     /// The observation as one line of JSON.
     pub json: bool,

@@ -7,14 +7,16 @@ use super::view::listed;
 use base::Sampler;
 use engine::{Action, Game};
 
-/// The maximum numbers of actions before and within a question.
+/// The maximum number of actions before the position in question.
 const BEFORE: usize = 12;
+
+/// The maximum number of actions that a question asks about.
 const ASKED: usize = 5;
 
 /// The maximum number of attempts to find four different boards.
 const ATTEMPTS: usize = 24;
 
-/// Draws a question for the board after one to five actions, which differs from the board shown.
+/// Draws a question that asks for the board after one to five actions. The answer differs from the board shown.
 pub(super) fn next_board(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let before = place.walk(sampler.between(0, BEFORE), sampler);
     let now = board(place, &before, &[])?;
@@ -26,17 +28,17 @@ pub(super) fn next_board(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<
     Some(vec![Draft::new(place, &place.game.section("Rules"), &parts, Form::Board(next), evidence)])
 }
 
-/// Draws a question for the board after given actions, with four boards to choose from. All four are equally likely
-/// to be right for a reader who does not know the actions: the actions in question are drawn from a set of similar
-/// sequences, and the options are the boards after these sequences. In half of the questions, two of the boards
-/// follow under the rules with one interaction switched off.
+/// Draws a question that asks for the board after given actions, with four boards to choose from. All four are equally
+/// likely to be right for a reader who does not know the actions. The actions in question are drawn from a set of
+/// similar sequences, and the options are the boards after these sequences. In half of the questions, two of the boards
+/// result from rules with one interaction switched off.
 pub(super) fn board_choice(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let before = place.walk(sampler.between(0, BEFORE), sampler);
     board(place, &before, &[])?;
     let base = place.random(sampler.between(2, ASKED), sampler);
     let peers = if sampler.ratio(1, 2) { with_rule_off(place, &before, &base, sampler) } else { None };
     let mut peers = peers.or_else(|| after_other_actions(place, &before, &base, sampler))?;
-    // Only boards under the rules themselves can be right.
+    // Only boards that result from the unchanged rules can be right.
     let possible = peers.iter().filter(|(_, source)| source.without.is_none()).count();
     peers.swap(0, sampler.below(possible));
     let actions = peers[0].1.actions.clone();
@@ -77,7 +79,7 @@ fn after_other_actions(
     peers.try_into().ok()
 }
 
-/// Returns a copy of actions with one action replaced, removed, or exchanged with its successor.
+/// Returns a copy of the actions with one action replaced, removed, or swapped with its successor.
 fn edited(place: Place<'_>, base: &[Action], sampler: &mut Sampler) -> Vec<Action> {
     let mut actions = base.to_vec();
     let at = sampler.below(actions.len());
@@ -92,7 +94,8 @@ fn edited(place: Place<'_>, base: &[Action], sampler: &mut Sampler) -> Vec<Actio
 }
 
 /// Returns the boards after two sequences of actions, first under the game's rules, and then with one interaction
-/// switched off that has had no consequences before. Returns `None` if fewer than four boards differ.
+/// switched off. This interaction has no visible consequences before the sequences begin. Returns `None` if fewer than
+/// four boards differ.
 fn with_rule_off(
     place: Place<'_>,
     before: &[Action],
@@ -124,7 +127,7 @@ fn with_rule_off(
     })
 }
 
-/// Returns the board after actions, or `None` if the episode is over by then.
+/// Returns the board after the given actions, or `None` if the episode is over by then.
 fn board(place: Place<'_>, before: &[Action], actions: &[Action]) -> Option<String> {
     board_under(place, place.rules(), &[before, actions].concat())
 }
@@ -137,7 +140,7 @@ fn board_under(place: Place<'_>, rules: &Game, actions: &[Action]) -> Option<Str
     (!state.is_over()).then(|| place.view(&state).board)
 }
 
-/// Describes a position by the start of the level, the actions so far, and the present board. Returns `None` if the
+/// Describes a position by the start of the level, the actions so far, and the current board. Returns `None` if the
 /// episode is over by then.
 pub(super) fn position(place: Place<'_>, before: &[Action]) -> Option<String> {
     let now = place.view(&place.after(before)?).text();

@@ -52,15 +52,15 @@ fn card(questions: &[Question], origin: &QuestionOrigin<'_>) -> String {
     }
     let _ = write!(
         text,
-        "\nSend `prompt` to a model, and nothing else: `answer` and `check` contain the answer and the evidence for it.\n\n\
-         The questions were drawn from release `{release}`, root digest\n\n    {root}\n\nwith\n\n    {command} --out \
-         questions\n\nTo check answers, write lines such as {{\"id\": …, \"answer\": …}} to a file, and run\n\n    {command} \
+        "\nSend only `prompt` to a model: `answer` and `check` contain the answer and the evidence for it.\n\n\
+         The questions were drawn from release `{release}`, which has the root digest\n\n    {root}\n\nwith the command\n\n    \
+         {command} --out questions\n\nTo check answers, write lines such as {{\"id\": …, \"answer\": …}} to a file, and run\n\n    {command} \
          --check answers.jsonl\n\nSee `arcade docs questions` for the kinds of questions.\n"
     );
     text
 }
 
-/// Returns the expected score of guesses, in the form of a table cell.
+/// Returns the expected score of guessing, as text for a table cell.
 fn chance(kind: QuestionKind) -> &'static str {
     match kind {
         QuestionKind::NextBoard => "0 %",

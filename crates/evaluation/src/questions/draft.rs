@@ -26,7 +26,7 @@ pub(super) enum Form {
     Board(String),
     /// Yes or no.
     YesNo(bool),
-    /// Four options, of which the first is right.
+    /// Four options. The first one is right.
     Options(Box<[(String, OptionSource); 4]>),
 }
 
@@ -50,7 +50,7 @@ impl Draft {
         Draft { game: game.subject.id.clone(), level: place.level.source.number, body, form, evidence }
     }
 
-    /// Returns the prompt without its options and the answer format.
+    /// Returns the prompt without the options and the answer format.
     pub(super) fn body(&self) -> &str {
         &self.body
     }

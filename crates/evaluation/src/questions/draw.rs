@@ -21,15 +21,15 @@ const ATTEMPTS: u64 = 40;
 pub struct QuestionOrder {
     /// The kinds of questions.
     pub kinds: Vec<QuestionKind>,
-    /// The number of questions of each kind. If it is even, questions with the answers yes and no are equally many.
+    /// The number of questions of each kind. If it is even, equally many questions have the answers yes and no.
     pub count: usize,
     /// The seed that determines the questions.
     pub seed: Seed,
 }
 
-/// Draws questions from the levels of games, sorted by kind. A kind has fewer questions than requested if the levels
-/// provide no more, and none if no level is deterministic and fully visible. `drawn` is called with the number of
-/// questions drawn so far.
+/// Draws questions from the levels of games, sorted by kind. There are fewer questions of a kind than requested if the
+/// levels do not provide enough, and none if no level is deterministic and fully visible. `drawn` is called with the
+/// number of questions drawn so far.
 ///
 /// Cost: up to 40,000 forward-model calls for each level, and several short replays or searches for each question.
 ///
@@ -105,7 +105,8 @@ fn attempt(games: &[QuestionGame<'_>], kind: QuestionKind, sampler: &mut Sampler
     }
 }
 
-/// Returns the indices of the right options' letters, in random order. Each letter occurs equally often, or once more.
+/// Returns the indices of the right options' letters, in random order. The numbers of times that two letters occur
+/// differ by at most one.
 fn letters(count: usize, sampler: &mut Sampler) -> Vec<usize> {
     let mut letters: Vec<usize> = (0..count).map(|number| number % LETTERS.len()).collect();
     sampler.shuffle(&mut letters);

@@ -5,7 +5,8 @@
 //! that are deterministic and fully visible are used.
 //!
 //! A reader who ignores the game scores at chance. Options are drawn so that each is equally likely to be right, the
-//! letters of right options are balanced, and questions with the answers yes and no come in pairs from one level.
+//! letters of right options are balanced, and yes/no questions come in pairs with opposite answers, from the same
+//! level.
 
 mod boards;
 mod check;

@@ -24,7 +24,7 @@ pub(super) struct QuestionGame<'a> {
 pub(super) struct QuestionLevel<'a> {
     pub(super) source: &'a SubjectLevel,
     pub(super) start: State,
-    /// Some win, if a short search finds one.
+    /// A win found by a short search, or an empty list if the search found none.
     win: Vec<Action>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Place<'a> {
 }
 
 impl<'a> QuestionGame<'a> {
-    /// Prepares a game, with its levels that are deterministic and fully visible. Cost: a search of at most
+    /// Prepares a game and those of its levels that are deterministic and fully visible. Cost: a search of at most
     /// [`LEVEL_CALLS`] calls per level.
     ///
     /// # Errors
@@ -94,7 +94,7 @@ impl<'a> QuestionLevel<'a> {
     }
 }
 
-/// Returns the first state of a level. Levels of questions are deterministic, so that the seed has no effect.
+/// Returns a level's first state. Questions are only about deterministic levels, so the seed has no effect.
 pub(super) fn start(game: &Game, level: &Level) -> State {
     game.start(level, Seed::from_text("questions"))
 }
@@ -104,7 +104,7 @@ impl<'a> Place<'a> {
         &self.game.subject.game
     }
 
-    /// Returns the state after actions from the start of the level, or `None` if the episode is over by then.
+    /// Returns the state after the given actions from the start of the level, or `None` if the episode is over by then.
     pub(super) fn after(&self, actions: &[Action]) -> Option<State> {
         let mut state = self.level.start.clone();
         for &action in actions {
@@ -117,13 +117,13 @@ impl<'a> Place<'a> {
         View::foretelling(self.rules(), state, self.game.prompter.legend())
     }
 
-    /// Returns the win that was found in advance. Empty if none was found.
+    /// Returns the win that was found in advance, or an empty list if none was found.
     pub(super) fn win(&self) -> &'a [Action] {
         &self.level.win
     }
 
-    /// Draws actions from the start of the level. In half of the walks, the first part follows a win. All other
-    /// actions are random, and repeat often. The episode may be over before the end of the walk.
+    /// Draws a walk: actions from the start of the level. In half of the walks, the first part follows a win. All other
+    /// actions are random, with frequent repetitions. The episode may be over before the end of the walk.
     pub(super) fn walk(&self, length: usize, sampler: &mut Sampler) -> Vec<Action> {
         let followed = if sampler.ratio(1, 2) { sampler.between(0, length.min(self.win().len())) } else { 0 };
         let mut actions = self.win()[..followed].to_vec();
@@ -142,14 +142,14 @@ impl<'a> Place<'a> {
         actions
     }
 
-    /// Returns `true` if the level is deterministic and fully visible under changed rules, too.
+    /// Returns `true` if the level is also deterministic and fully visible under the given changed rules.
     pub(super) fn is_exact(&self, rules: &Game) -> bool {
         let (analysis, start) = (Analysis::of(rules), start(rules, &self.level.source.level));
         analysis.is_deterministic_from(&start) && analysis.is_fully_observable_from(&start)
     }
 
-    /// Plays actions from the start of the level under the given rules, until the episode is over. Returns all
-    /// views, with the first state's view first, and the interactions that occurred.
+    /// Plays actions from the start of the level under the given rules, until the episode is over. Returns the views of
+    /// all states, including the first state, and the indices of the interactions that occurred.
     pub(super) fn record(&self, rules: &Game, actions: &[Action]) -> (Vec<View>, BTreeSet<usize>) {
         let legend = self.game.prompter.legend();
         let mut state = start(rules, &self.level.source.level);
@@ -165,7 +165,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// The interactions that occurred.
+/// The indices of the interactions that occurred.
 #[derive(Default)]
 struct Fired(BTreeSet<usize>);
 

@@ -8,15 +8,15 @@ base::named_enum! {
     pub enum QuestionKind {
         /// The board after given actions, to be written out.
         NextBoard = "next-board",
-        /// The board after given actions, to be chosen among four boards.
+        /// The board after given actions, to be chosen from four boards.
         BoardChoice = "board-choice",
-        /// The possibility of a win from a position: yes or no.
+        /// A yes/no question: can a position be won?
         Winnable = "winnable",
-        /// The possibility of a win within a number of actions: yes or no.
+        /// A yes/no question: can a position be won within a number of actions?
         WinWithin = "win-within",
-        /// The rule, among four, that is switched off in the second of two recordings.
+        /// The one rule out of four that is switched off in the second of two recordings.
         ChangedRule = "changed-rule",
-        /// The sentence, among four, that describes a sprite in a recording.
+        /// The one sentence out of four that describes a sprite in a recording.
         SpriteBehaviour = "sprite-behaviour",
     }
 }
@@ -48,7 +48,7 @@ pub struct Question {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Evidence {
-    /// The instruction for checking the answer, as one sentence.
+    /// The instructions for checking the answer.
     pub how: String,
     /// The actions from the start of the level to the position in question.
     pub before: Vec<Action>,
@@ -71,7 +71,7 @@ pub struct Evidence {
 pub struct OptionSource {
     /// The actions to play. They follow [`Evidence::before`].
     pub actions: Vec<Action>,
-    /// The interaction that has no consequences, as an index into the game's InteractionSet.
+    /// The index of the switched-off interaction in the game's InteractionSet, if any.
     pub without: Option<usize>,
     /// The VGDL text of a game with one changed rule. Empty for the rules of the game itself.
     pub vgdl: String,

@@ -12,8 +12,8 @@ use engine::{Action, Analysis};
 /// The minimum and the maximum number of actions in a recording.
 const LENGTH: (usize, usize) = (6, 20);
 
-/// Draws a question about the rule that is switched off in the second of two recordings. Each of the four rules would
-/// change the recording, each in a different way, and the right rule is drawn among them.
+/// Draws a question about the rule that is switched off in the second of two recordings. Switching off any of the four
+/// rules would change the recording in a different way. The right rule is drawn from them.
 pub(super) fn changed_rule(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let actions = place.walk(sampler.between(LENGTH.0, LENGTH.1), sampler);
     let (first, fired) = place.record(place.rules(), &actions);
@@ -55,8 +55,8 @@ pub(super) fn changed_rule(place: Place<'_>, sampler: &mut Sampler) -> Option<Ve
     )])
 }
 
-/// Draws a question about the behaviour of a sprite in a recording. The game is drawn among four variants of a released
-/// game, which differ in one rule and give four different recordings.
+/// Draws a question about the behaviour of a sprite in a recording. The game is drawn from four variants of a released
+/// game. The variants differ in one rule, and produce four different recordings.
 pub(super) fn sprite_behaviour(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let actions = place.walk(sampler.between(LENGTH.0, LENGTH.1), sampler);
     let (about, candidates) = variants(place, &actions, sampler)?;
@@ -87,8 +87,8 @@ fn source(actions: &[Action], vgdl: &str) -> OptionSource {
     OptionSource { actions: actions.to_vec(), without: None, vgdl: vgdl.to_owned() }
 }
 
-/// Returns the rules that the variants of a game share, as a section of a prompt. Sentences about all other sprites are
-/// omitted, because the sprite in question may be an exception.
+/// Returns the rules that the variants of a game share, as a section of a prompt. Sentences about the remaining sprites
+/// are omitted, because the sprite in question may not be one of them.
 fn common_rules(guides: &[Guide; 4]) -> String {
     let shared = |of: fn(&Guide) -> &Vec<String>| {
         let is_shared = |line: &&String| guides.iter().all(|guide| of(guide).contains(line));

@@ -16,7 +16,7 @@ pub(super) struct Variant {
     pub(super) told: String,
 }
 
-/// The effects that replace an interaction's effect.
+/// The effects that can replace an interaction's effect.
 const EFFECTS: [&str; 8] = [
     "killSprite",
     "killBoth",
@@ -28,7 +28,7 @@ const EFFECTS: [&str; 8] = [
     "cloneSprite",
 ];
 
-/// The classes that replace a sprite's class, each with its parameters.
+/// The classes that can replace a sprite type's class, each with its parameters.
 const CLASSES: [(&str, &[(&str, &str)]); 9] = [
     ("Immovable", &[]),
     ("Missile", &[("orientation", "UP"), ("cooldown", "1")]),
@@ -41,11 +41,11 @@ const CLASSES: [(&str, &[(&str, &str)]); 9] = [
     ("Missile", &[("orientation", "RIGHT"), ("cooldown", "2")]),
 ];
 
-/// The maximum number of a type's sprites whose class is replaced.
+/// A type's class is replaced only if the level starts with at most this many sprites of the type.
 const MAX_SPRITES: usize = 8;
 
-/// Draws a rule, and returns a question about it with the variants of the game in that rule, in random order. Rules on
-/// interactions are drawn among those that occur during the actions.
+/// Draws a rule. Returns a question about it, and variants of the game that differ in that rule, in random order. Rules
+/// about interactions are drawn from those that apply during the actions.
 pub(super) fn variants(
     place: Place<'_>,
     actions: &[Action],
@@ -102,8 +102,7 @@ fn of_class(place: Place<'_>, sampler: &mut Sampler) -> Option<(String, Vec<Vari
     Some((about, CLASSES.into_iter().filter_map(change).collect()))
 }
 
-/// Returns `true` if the level starts with a few sprites of the type, and they can stand for anything but the player,
-/// walls and floors.
+/// Returns `true` if the level starts with a few sprites of the type, and the type is not an avatar, a wall or a floor.
 fn is_mobile(place: Place<'_>, name: &str) -> bool {
     let entry = place.game.prompter.legend().entry(name);
     let is_thing = entry.is_some_and(|entry| matches!(entry.role, EntryRole::Thing | EntryRole::Scenery));
@@ -123,7 +122,7 @@ fn find<'a>(lines: &'a mut [SpriteLine], name: &str) -> Option<&'a mut SpriteLin
     None
 }
 
-/// Compiles a changed game. Returns `None` if the game does not compile, or the changed rule is not described.
+/// Compiles a changed game. Returns `None` if the game does not compile, or if the changed rule has no description.
 fn variant(description: &Description, told: impl Fn(&Analysis) -> String) -> Option<Variant> {
     let game = Game::compile(description).ok()?;
     let told = told(&Analysis::of(&game));

@@ -63,13 +63,13 @@ fn notes(observation: &Observation, legend: &Legend) -> Vec<String> {
     notes
 }
 
-/// Returns actions as a list, such as `right, right, up`.
+/// Formats actions as a list, such as `right, right, up`.
 pub(super) fn listed(actions: &[Action]) -> String {
     actions.iter().join(", ")
 }
 
-/// Returns a recording as text. The first view is complete. For every later view, only the changed rows and the
-/// changed notes are given.
+/// Formats a recording as text. The first view is complete. Every later view contains only the changed rows and the
+/// changed notes.
 pub(super) fn recording(views: &[View], actions: &[Action]) -> String {
     let Some(first) = views.first() else { return String::new() };
     let later = views.windows(2).zip(actions).zip(1..);
@@ -90,7 +90,7 @@ fn changes(before: &View, after: &View) -> String {
     if all.is_empty() { "nothing changes".to_owned() } else { all.trim_start().to_owned() }
 }
 
-/// Returns `true` for a note that lists cells or holdings, and disappears without being replaced.
+/// Returns `true` if a note lists cells or held resources. Such a note can disappear without a replacement.
 fn is_list(note: &str) -> bool {
     note.contains(": ") || note.starts_with("You hold")
 }

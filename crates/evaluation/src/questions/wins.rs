@@ -1,5 +1,5 @@
-//! Questions about wins, each answered by a win or by an exhaustive search. The searches use no bounds, so that plain
-//! searches confirm them.
+//! Questions about wins, each answered by a win or by an exhaustive search. The searches use no lower bounds, so a
+//! plain search can confirm their results.
 
 use super::boards::position;
 use super::draft::{Draft, Form};
@@ -19,14 +19,15 @@ const POSITIONS: usize = 12;
 /// The number of searches without an answer after which the level is abandoned.
 const UNKNOWN: usize = 3;
 
-/// The maximum number of actions before a position.
+/// The maximum number of actions that lead to a position.
 const BEFORE: usize = 24;
 
-/// The range of the numbers of actions in the shortest wins that questions are about.
+/// The range of lengths, in actions, of the shortest wins that questions are about.
 const SHORTEST: std::ops::RangeInclusive<usize> = 2..=12;
 
-/// Draws a pair of questions about one level: a position that can be won, and a position after as many actions that
-/// cannot be won. Positions whose search reaches its limit are dropped.
+/// Draws a pair of questions about one level: one about a position that can be won, and one about a position that
+/// cannot. Both positions are reached after the same number of actions. Positions whose search reaches its limit are
+/// dropped.
 pub(super) fn winnable(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let length = sampler.between(1, BEFORE);
     let (mut won, mut lost) = (None, None);
@@ -66,7 +67,8 @@ pub(super) fn winnable(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Dr
     pair(place, (question, yes), (question, no), sampler)
 }
 
-/// Draws a pair of questions about one position: the number of actions in its shortest win, and one action fewer.
+/// Draws a pair of questions about one position. One states the number of actions in the shortest win, and the other
+/// states one action fewer.
 pub(super) fn win_within(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let rest = sampler.between(*SHORTEST.start(), *SHORTEST.end()).min(place.win().len());
     let mut before = place.win()[..place.win().len() - rest].to_vec();
@@ -116,7 +118,7 @@ fn shortest_win(place: Place<'_>, state: &State) -> Option<(Vec<Action>, u64)> {
     }
 }
 
-/// Returns two drafts in random order, the first of which is answered with yes.
+/// Returns two drafts in random order, one with the answer yes and one with the answer no.
 fn pair(
     place: Place<'_>,
     yes: (&str, Evidence),

@@ -53,8 +53,7 @@ impl fmt::Display for ReferencePlayer {
 }
 
 impl ReferencePlayer {
-    /// Returns a writer for the prompts that the player reads in a game, or `None` if the player reads no
-    /// prompts.
+    /// Returns the prompter for a player that reads prompts, or `None` for any other player.
     ///
     /// # Errors
     /// Returns an error if a prompt cannot be written.

@@ -1,5 +1,5 @@
-//! Plays reference players' episodes in memory. Their results are a release's marks, the baseline for other
-//! results.
+//! Plays the episodes of reference players in memory. Their results become a release's marks, which are the
+//! baseline for other results.
 
 use super::ReferencePlayer;
 use crate::commitment::Commitment;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// The parameters for a reference player's episodes.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferencePlays {
-    /// The seed of the episodes' evaluation.
+    /// The seed of the evaluation to which the episodes belong.
     pub seed: Seed,
     /// The number of episodes per commitment.
     pub runs: u64,
@@ -58,8 +58,8 @@ impl ReferencePlays {
     /// Returns the number of wins with each commitment.
     ///
     /// The numbers match an evaluation of the player with the same seed, runs and step limit. On
-    /// deterministic levels, a planner plans the same actions that it would choose at each decision, so its
-    /// episodes with one commitment count for all other commitments too.
+    /// deterministic levels, a planner plans the same actions that it would choose one by one, so its results
+    /// with one commitment also apply to all other commitments.
     ///
     /// # Errors
     /// Returns an error if the player cannot play the game.

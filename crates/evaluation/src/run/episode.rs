@@ -36,8 +36,8 @@ pub struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Returns `true` if the level is played to learn the rules of a series. Such an episode is excluded from
-    /// all results.
+    /// Returns `true` if the level is played for practice, at the start of a series. Such an episode is
+    /// excluded from all results.
     pub fn is_practice(&self) -> bool {
         self.series.is_some_and(SeriesPlace::is_practice)
     }
@@ -74,13 +74,13 @@ impl Task<'_> {
     /// episode is replayed.
     ///
     /// # Errors
-    /// Returns a sentence about the first difference.
+    /// Returns a clause that states the first difference.
     pub fn compare_start(&self, start: &Event) -> Result<(), String> {
         let Event::Start { game, level, run, seed, max_steps, commit, track, series, .. } = start else {
             return Ok(());
         };
         let place = |series: Option<SeriesPlace>| {
-            series.map_or("alone".to_owned(), |place| format!("{} of {}", place.index + 1, place.of))
+            series.map_or("none".to_owned(), |place| format!("{} of {}", place.index + 1, place.of))
         };
         let on = |track: Option<&str>| track.unwrap_or("none").to_owned();
         let fields = [
@@ -90,7 +90,7 @@ impl Task<'_> {
             ("an episode with `max_steps`", max_steps.to_string(), self.max_steps.to_string()),
             ("an episode with `commit`", commit.to_string(), self.commit.to_string()),
             ("an episode with `track`", on(track.as_deref()), on(self.track)),
-            ("a level with the place", place(*series), place(self.series)),
+            ("a level with the series position", place(*series), place(self.series)),
         ];
         if let Some((what, found, requested)) = fields.iter().find(|(_, found, requested)| found != requested)
         {
@@ -143,8 +143,8 @@ pub(crate) struct Context<'a> {
     pub(crate) watch: &'a dyn Fn(Validity) -> Option<Halt>,
 }
 
-/// Plays an episode like [`play`]. If the episode ended, it is shown to the agent once more, and the end of
-/// the level is returned as well.
+/// Plays an episode like [`play`]. If the episode has ended, its final state is shown to the agent, and the
+/// end of the level is also returned.
 pub(crate) fn play_watched(
     task: &Task<'_>,
     contestant: &mut Contestant,
@@ -356,7 +356,7 @@ impl<'a> Playing<'a> {
             Some(_) => {
                 let step = self.steps.saturating_sub(1);
                 return Err(journal.malformed(&format!(
-                    "replaying step {step} gives a different result than the log; the log is damaged or \
+                    "replaying step {step} gives a result that differs from the log; the log is damaged or \
                      was written by a different version of arcade"
                 )));
             }
@@ -396,7 +396,7 @@ impl<'a> Playing<'a> {
     }
 
     /// Plays an action and returns the event that records the step. An unavailable action is replaced by
-    /// doing nothing.
+    /// [`Action::Nil`].
     fn step(&mut self, asked: Action, validity: Validity, calls: Option<u64>, took_ms: f64) -> Event {
         let (game, score) = (self.game(), self.state.score());
         let action = available(game, &self.state, asked);
@@ -422,8 +422,7 @@ impl<'a> Playing<'a> {
     }
 }
 
-/// Returns the sprite types in a series's last question: the types present at the start of the game's
-/// selected levels.
+/// Returns the sprite types in the last question of a series: the types present at the start of its levels.
 fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     let subject = task.subject;
     let at = subject.levels.iter().position(|level| level.number == task.level.number).unwrap_or_default();

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// The name of the lock file, locked by the program that writes to a results folder.
+/// The name of the lock file in a results folder. The program that writes to the folder holds the lock.
 const LOCK_FILE: &str = ".lock";
 
 /// The number of consecutive episodes aborted by environment failures after which an evaluation stops,
@@ -59,14 +59,14 @@ pub trait Progress: Sync {
     fn stopped(&self, _halt: &Halt) {}
 }
 
-/// The number of an evaluation's episodes with each final status.
+/// The numbers of an evaluation's episodes, by final status.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// The total number of episodes.
     pub episodes: u64,
     /// The number of episodes that ended.
     pub ended: u64,
-    /// The number of ended episodes with a win, excluding practice episodes.
+    /// The number of episodes won, excluding practice episodes.
     pub won: u64,
     /// The episodes stopped by the engine, grouped by game and reason.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -77,15 +77,15 @@ pub struct Tally {
     /// The total number of practice episodes, excluded from all results.
     #[serde(skip_serializing_if = "is_zero")]
     pub practice: u64,
-    /// The decision counts over all episodes: in total, and without a usable answer.
+    /// The number of decisions over all episodes, in total and without a usable answer.
     #[serde(flatten)]
     pub answers: Answers,
     /// The number of aborted episodes, plus the episodes not started because others were aborted.
     pub open: u64,
     /// The reason for the first aborted episode, if any.
     pub halted: Option<String>,
-    /// `true` if the abort was caused by the network, the server, the disk or a player's process, not by a
-    /// cap or the user.
+    /// `true` if the abort was caused by the network, the server, the disk or a player's process, rather than
+    /// by a cap or the user.
     pub infrastructure: bool,
 }
 
@@ -191,7 +191,7 @@ impl Evaluation {
         })?;
         let wrong = |what: String| EvaluationError::malformed(&path, what);
         let unreadable =
-            |error: serde_json::Error| wrong(format!("not evaluation settings: {error}; {RESTORE}"));
+            |error: serde_json::Error| wrong(format!("not valid evaluation settings: {error}; {RESTORE}"));
         let value: serde_json::Value = serde_json::from_str(&text).map_err(unreadable)?;
         let format = value.get("format").and_then(serde_json::Value::as_u64);
         if let Some(format) = format.filter(|&format| format > u64::from(FORMAT)) {
@@ -233,7 +233,7 @@ impl Evaluation {
         Ok(true)
     }
 
-    /// Returns the games' entries for the settings.
+    /// Returns the games' entries in the settings.
     pub fn entries(subjects: &[Subject]) -> Vec<SubjectEntry> {
         subjects.iter().map(SubjectEntry::of).collect()
     }
@@ -349,8 +349,8 @@ impl Evaluation {
         let is_unfit = |task: &Task<'_>| unfit.lock().expect("no holder panics").contains(&task.subject.id);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
-        // Episodes are taken in order instead of by splitting the list, so that every level has been played
-        // about equally often if the run is aborted.
+        // Threads take episodes in order rather than each taking a part of the list. Therefore, every level
+        // has been played about equally often if the run is aborted.
         let is_stopped = || stopped.load(Ordering::Relaxed) || watch.halt().is_some();
         let watched = |validity| {
             let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
@@ -482,7 +482,7 @@ fn names_in(folder: &Path) -> Result<Vec<OsString>, EvaluationError> {
     entries.map_err(EvaluationError::io("list", folder))
 }
 
-/// Returns `true` if a folder is empty, or contains only files from an interrupted creation without settings.
+/// Returns `true` if a folder is empty, or if its creation was interrupted before the settings were written.
 fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     let begun = [LOCK_FILE, "games", "episodes"];
     let episodes = folder.join("episodes");

@@ -22,8 +22,8 @@ pub(crate) fn series_of<'a>(tasks: &'a [Task<'a>]) -> Vec<&'a [Task<'a>]> {
 }
 
 /// Plays the episodes of a series with one player. Returns the results of the episodes that were started,
-/// each with `true` if it is practice. Ended episodes are replayed, so that the player remembers them, but
-/// only if a later episode is open.
+/// each with `true` if it is practice. Ended episodes are replayed only if a later episode is open, so that
+/// the player remembers them.
 pub(crate) fn play_series(
     series: &Series<'_>,
     contestant: &impl Fn(&Task<'_>) -> Result<Contestant, Halt>,

@@ -51,7 +51,7 @@ pub struct Settings {
     /// The track with its version, such as `masked@1`, or `None` for custom prompts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
-    /// The maximum number of a game's levels played in one conversation.
+    /// The maximum number of levels of a game that are played in one conversation.
     #[serde(default = "alone", skip_serializing_if = "is_alone")]
     pub series: u64,
     /// The settings for adaptive level selection, or `None` to play all levels.
@@ -70,14 +70,14 @@ pub struct Adaptive {
     pub scale: Digest,
     /// The maximum number of episodes.
     pub episodes: u64,
-    /// The standard error of the ability at which the evaluation ends, if set.
+    /// The target standard error of the ability, if set. The evaluation ends when it is reached.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// The number of episodes chosen per batch.
     pub batch: u64,
 }
 
-/// Returns 1: the length of a series with a single level.
+/// Returns the length of a series with a single level, which is 1.
 fn alone() -> u64 {
     1
 }
@@ -94,7 +94,7 @@ pub struct Entrant {
     pub name: String,
     /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
-    /// Flags for how the player's prompts differ from the default, one per difference, sorted. They identify
+    /// The differences between the player's prompts and the default prompts, as sorted flags. They identify
     /// the variants in an ablation.
     pub aids: Vec<String>,
     /// All inputs that determine the player's requests and answers, such as the model, the server, the
@@ -124,7 +124,7 @@ pub struct LevelEntry {
     pub number: usize,
     /// The level's digest.
     pub digest: Digest,
-    /// The length of the shortest win in ticks, if proved optimal.
+    /// The length of the shortest win in ticks, if it was proved to be optimal.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -142,7 +142,7 @@ impl Settings {
         let limit_in_words = if limit == 1 { "1 step".to_owned() } else { format!("{limit} steps") };
         let have = if all == 1 { "level has" } else { "levels have" };
         Some(format!(
-            "{count} of {all} {have} no known win within {limit_in_words}; the shortest known wins take up to {longest}"
+            "{count} of {all} {have} no known win within {limit_in_words}; the shortest known wins take up to {longest} steps"
         ))
     }
 
@@ -158,7 +158,7 @@ impl Settings {
         match self.games.iter().find(|game| track.series() > 1 && game.levels.len() < 2) {
             Some(game) => Err(format!(
                 "the track `{}` requires at least two levels per game, one of them for practice; `{}` has \
-                 {}: choose others with --games and --levels",
+                 {}: choose other games or levels with --games and --levels",
                 track.name(),
                 game.id,
                 game.levels.len()
@@ -171,19 +171,20 @@ impl Settings {
     /// The limits bound the size of results folders, to protect programs that read them.
     ///
     /// # Errors
-    /// Returns a message that states the out-of-range value, or the repeated game or level.
+    /// Returns a message that states the value that is out of range, or the game or level that is listed
+    /// twice.
     pub fn check(&self) -> Result<(), String> {
         let levels: u64 = self.games.iter().map(|game| game.levels.len() as u64).sum();
         let episodes = self.runs.checked_mul(levels).filter(|&episodes| episodes <= MAX_EPISODES);
         if self.runs == 0 || self.runs > MAX_EPISODES || episodes.is_none() {
             let runs = self.runs;
             return Err(format!(
-                "`runs` is {runs}, on {levels} levels; an evaluation has 1 to {MAX_EPISODES} episodes in total"
+                "`runs` is {runs} on {levels} levels, but an evaluation must have 1 to {MAX_EPISODES} episodes in total"
             ));
         }
         if !(1..=MAX_DECISIONS).contains(&self.max_steps) {
             let max_steps = self.max_steps;
-            return Err(format!("`max_steps` is {max_steps}; an episode has 1 to {MAX_DECISIONS} decisions"));
+            return Err(format!("`max_steps` is {max_steps}, but must be from 1 to {MAX_DECISIONS}"));
         }
         if let Some(id) = self.games.iter().map(|game| &game.id).duplicates().next() {
             return Err(format!("the game `{id}` is listed twice"));
@@ -215,7 +216,7 @@ impl SubjectEntry {
     /// Reads the game from its texts in a results folder.
     ///
     /// # Errors
-    /// Returns an error if the texts are missing, do not compile, or differ from the played texts.
+    /// Returns an error if the texts are missing, do not compile, or differ from the texts that were played.
     pub(crate) fn read(&self, results: &Path) -> Result<Subject, EvaluationError> {
         let folder = results.join("games").join(&self.id);
         let source = read_text(&folder.join("game.vgdl"), MAX_SOURCE, RESTORE)?;

@@ -58,7 +58,7 @@ impl fmt::Display for Answers {
     }
 }
 
-/// A count of the answers in all of a run's episodes, shared between threads.
+/// The answer counts over all episodes of a run, shared between threads.
 #[derive(Debug, Default)]
 pub(crate) struct Watch(Mutex<Watched>);
 
@@ -87,7 +87,7 @@ impl Watch {
             let is_all = answers.unusable == answers.steps;
             if !tell(&answers, is_all) {
                 watched.halt = Some(Halt::Unusable(format!(
-                    "the evaluation was stopped because {answers}; the logs have the answers"
+                    "the evaluation was stopped because {answers}; the logs contain the answers"
                 )));
             }
         }
@@ -104,8 +104,8 @@ impl Watch {
 mod tests {
     use super::*;
 
-    /// Checks at which decisions a notice is shown, each with `true` if no answer was usable. In `decisions`,
-    /// `v` stands for a valid answer.
+    /// Checks the decisions at which a notice is shown, each with `true` if no answer was usable. In
+    /// `decisions`, `v` stands for a valid answer.
     #[track_caller]
     fn check(decisions: &str, expect: &[(u64, bool)]) {
         let (watch, mut told) = (Watch::default(), Vec::new());
@@ -142,7 +142,7 @@ mod tests {
         }
         let halt = watch.decided(Validity::Refused, |_, is_all| !is_all);
         let reason = "the evaluation was stopped because 20 of 20 decisions have no usable answer (19 invalid, 1 refused); the logs \
-                      have the answers";
+                      contain the answers";
         assert_eq!(halt, Some(Halt::Unusable(reason.to_owned())));
         assert_eq!(watch.decided(Validity::Valid, |_, _| unreachable!("it is told once")), halt);
         assert_eq!(watch.halt(), halt);

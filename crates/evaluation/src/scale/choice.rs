@@ -1,5 +1,5 @@
 //! Chooses levels with a scale. A plan chooses levels for a target in advance. An adaptive choice selects
-//! each next level based on the results of the previous episodes.
+//! each level based on the results of the preceding episodes.
 
 use super::file::ScaleFile;
 use crate::run::{Adaptive, Settings, SubjectEntry};
@@ -49,7 +49,7 @@ pub struct Plan {
     pub errors: PlannedErrors,
     /// `true` if the plan reaches the target.
     pub is_reached: bool,
-    /// The expected errors for other numbers of episodes, up to all levels.
+    /// The expected errors for other numbers of episodes, up to one episode on each level.
     pub others: Vec<PlannedErrors>,
 }
 
@@ -228,8 +228,8 @@ impl AdaptiveChoice {
         })
     }
 
-    /// Returns the indices of the next episodes among all of the evaluation's episodes, or an empty list to
-    /// finish. `played` contains the episodes that have ended since the last call, with `true` for wins.
+    /// Returns the next episodes' indices among all of the evaluation's episodes, or an empty list to finish.
+    /// `played` contains the episodes that have ended since the last call, with `true` for wins.
     pub fn next(&mut self, settings: &Settings, played: &[(usize, bool)]) -> Vec<usize> {
         for &(episode, won) in played {
             let (game, level) = self.places[episode % self.places.len()];

@@ -34,7 +34,7 @@ const LEAST_SPREAD: f64 = 1e-6;
 /// The maximum number of bootstrap replicates.
 const MAX_REPLICATES: f64 = 10_000.0;
 
-/// The recommendation in error messages about files that are not scales.
+/// The next step in error messages about files that are not scales.
 const NEXT_STEP: &str = "pass the scale.json that `arcade study calibrate` wrote";
 
 /// A scale, with the releases placed on it.
@@ -51,7 +51,7 @@ pub struct ScaleFile {
     pub examinees: Vec<ExamineeEntry>,
     /// The standard deviations and slopes in the statistical model.
     pub spreads: SpreadsEntry,
-    /// The covariance matrix, stored by rows, of three groups of parameters: the examinees' abilities, the
+    /// The covariance matrix, stored row by row, of three groups of parameters: the examinees' abilities, the
     /// origins for planners and readers, and the planners' ease.
     pub covariance: Vec<f64>,
     /// The mean difficulties of the first release for planners and for readers, in the coordinates of the
@@ -203,7 +203,8 @@ impl From<SpreadsEntry> for Spreads {
 }
 
 impl ScaleFile {
-    /// Creates a scale without releases from a calibration. `names` contains each examinee's name and family.
+    /// Creates a scale from a calibration, without any releases. `names` contains each examinee's name and
+    /// family.
     pub fn new(found: &Calibration, names: &[(String, String)], max_steps: u64) -> ScaleFile {
         let entry = |(at, (name, family)): (usize, &(String, String))| ExamineeEntry {
             name: name.clone(),
@@ -250,8 +251,8 @@ impl ScaleFile {
     }
 
     /// Checks for values that no calibration produces, and returns an error with the key of the first such
-    /// value. Unchecked, some of these values could exhaust memory in plots and integrals, and others would
-    /// make results undefined.
+    /// value. Without the check, some of these values could exhaust memory in plots and integrals, and others
+    /// would make results undefined.
     fn check(&self) -> Result<(), String> {
         within(format_args!("max_steps"), self.max_steps as f64, 1.0..=MAX_DECISIONS as f64)?;
         within(format_args!("replicates"), self.replicates as f64, 0.0..=MAX_REPLICATES)?;
@@ -313,7 +314,7 @@ impl ScaleFile {
                 if one != other || one * one > most * (1.0 + 1e-6) + 1e-12 {
                     let place = row * size + column;
                     return Err(format!(
-                        "`covariance[{place}]` is {one}, which is not symmetric, or too large for the variances"
+                        "`covariance[{place}]` is {one}, which is asymmetric or too large for the variances"
                     ));
                 }
             }
@@ -345,7 +346,8 @@ impl ScaleFile {
         }
     }
 
-    /// Adds a release, played with the given settings. `plays` contains the results used in its calibration.
+    /// Adds a release that was played with the given settings. `plays` contains the results used in its
+    /// calibration.
     pub fn add(&mut self, name: &str, settings: &Settings, month: &Month, plays: &[GamePlays]) {
         let played = |at: usize| {
             plays.iter().flat_map(|game| &game.plays).any(|plays| plays.examinee == at && plays.of > 0.0)
@@ -388,7 +390,8 @@ impl ScaleFile {
         MismatchPrior { median, ..MismatchPrior::default() }
     }
 
-    /// Finds a level, and returns the indices of its release, its game and the level itself.
+    /// Returns the indices of a level's release, of its game and of the level itself, if the level is on the
+    /// scale.
     pub fn place(&self, game: Digest, level: Digest) -> Option<(usize, usize, usize)> {
         let months = self.months.iter().enumerate();
         let mut games = months
@@ -400,7 +403,7 @@ impl ScaleFile {
     }
 }
 
-/// The part of a scale file that shows whether its format is newer.
+/// The part of a scale file that is read first, in order to detect newer formats.
 #[derive(Deserialize)]
 struct Version {
     format: Option<u64>,
@@ -409,7 +412,7 @@ struct Version {
 fn within(key: fmt::Arguments<'_>, value: f64, range: RangeInclusive<f64>) -> Result<(), String> {
     match range.contains(&value) {
         true => Ok(()),
-        false => Err(format!("`{key}` is {value}, outside {} to {}", range.start(), range.end())),
+        false => Err(format!("`{key}` is {value}, not between {} and {}", range.start(), range.end())),
     }
 }
 

@@ -6,10 +6,11 @@ use serde::Serialize;
 use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
-/// The smallest lower bound of the correlation at which planners alone can link a month for readers.
+/// The smallest lower bound of the correlation at which planners alone can link a month to the scale for
+/// readers.
 const LEAST_CORRELATION: f64 = 0.5;
-/// The minimum number of anchors for linking a month for readers. A single anchor would leave open how much
-/// it has in common with other readers.
+/// The minimum number of anchors that link a month to the scale for readers. A single anchor would not show
+/// how much it has in common with other readers.
 const ANCHORS: u64 = 2;
 
 /// A person's abilities, one per release.
@@ -23,8 +24,8 @@ pub struct PersonAbility {
     pub months: Vec<MonthAbility>,
     /// The number of distinct episodes on levels missing from the scale.
     pub unknown: u64,
-    /// The number of episodes excluded for their settings, by difference from the scale's calibration. The
-    /// key lists the differing settings, such as `--commit 3`.
+    /// The number of episodes excluded because of their settings, by difference from the settings of the
+    /// scale. The key lists the differing settings, such as `--commit 3`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub left_out: BTreeMap<String, u64>,
 }

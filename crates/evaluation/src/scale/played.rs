@@ -19,8 +19,9 @@ pub struct PersonPlays {
     pub player: Player,
     /// The person's dimension. Players that see the state are planners, and all other players are readers.
     pub dimension: Dimension,
-    /// The number of episodes excluded for their settings, by difference from the scale's calibration. The
-    /// key lists the differing settings, such as `--commit 3`. `levels` does not include these episodes.
+    /// The number of episodes excluded because of their settings, by difference from the settings of the
+    /// scale. The key lists the differing settings, such as `--commit 3`. `levels` does not include these
+    /// episodes.
     pub left_out: BTreeMap<String, u64>,
     /// The versions of the suite that evaluated the person, by game digest.
     pub suites: BTreeMap<Digest, BTreeSet<String>>,
@@ -28,9 +29,9 @@ pub struct PersonPlays {
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads results folders, and distinguishes their persons as in reports. Aborted episodes do not count.
-/// Neither do episodes whose track, commitment or step limit differs from that of a scale with `max_steps`,
-/// because the scale's difficulties would not apply.
+/// Reads the persons' results in results folders. Persons are distinguished in the same way as in reports.
+/// Aborted episodes do not count. Episodes whose track, commitment or step limit differs from that of a scale
+/// with `max_steps` do not count either, because the scale's difficulties do not apply to them.
 ///
 /// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current
 /// rayon pool.
@@ -90,8 +91,8 @@ pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, E
 }
 
 impl Settings {
-    /// Returns the command-line flags for the settings that differ from a scale with the given step limit.
-    /// Returns `None` if there is no difference.
+    /// Returns the command-line flags for the settings that differ from those of a scale with the given step
+    /// limit. Returns `None` if there is no difference.
     pub fn apart_from(&self, max_steps: u64) -> Option<String> {
         let track = self.track.as_deref().and_then(|id| id.split('@').next());
         let track = track.filter(|name| *name != Track::Told.name()).map(|name| format!("--track {name}"));

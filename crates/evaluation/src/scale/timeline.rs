@@ -45,7 +45,7 @@ pub struct TimelineMonth {
     pub misfit: f64,
     /// The number of anchors that played the month. Anchors are the readers among the scale's examinees.
     pub anchors: u64,
-    /// The month's additional difficulty for the anchors, beyond what its difficulty for planners implies.
+    /// The month's additional difficulty for the anchors, beyond that implied by its difficulty for planners.
     pub drift: Option<Estimate>,
     /// `true` if the drift's 95% interval excludes 0.
     pub is_drift_flagged: bool,
@@ -57,7 +57,7 @@ pub struct TimelinePlayer {
     /// The player's abilities.
     #[serde(flatten)]
     pub ability: PersonAbility,
-    /// `true` if the player was used to calibrate the scale, so that its abilities are not independent
+    /// `true` if the player was used to calibrate the scale, in which case its abilities are not independent
     /// evidence.
     pub is_examinee: bool,
     /// The versions of the suite that evaluated the player, in the order of the ability's `months`.
@@ -188,14 +188,14 @@ impl Timeline {
     }
 
     fn changes(&self) -> Table {
-        let note = "χ²: the statistic of the abilities about their mean, with one degree of freedom fewer \
-                    than the number of months. p: the probability of at least this value if the ability \
+        let note = "χ²: the statistic for the deviations of the abilities from their mean, with one degree of freedom \
+                    fewer than there are months. p: the probability of at least this value if the ability \
                     never changed. q: p adjusted for the number of players. Months without a win or \
-                    without a loss are left out.";
+                    without a loss are excluded.";
         let columns = ["player", "part", "months", "mean ability", "last − first", "χ²", "p", "q"];
         let mut table = Table::new("changes", "Change over the months", note, &columns);
         for player in &self.players {
-            let part = if player.is_examinee { "calibrates the scale" } else { "placed on it" };
+            let part = if player.is_examinee { "calibrates the scale" } else { "placed on the scale" };
             let mut row = vec![TableCell::text(&*player.ability.player), TableCell::text(part)];
             if let Some(change) = &player.change {
                 let Span { value, low, high } = change.from_first_to_last;
@@ -215,7 +215,7 @@ impl Timeline {
     }
 
     fn difficulties(&self) -> Table {
-        let note = "Mean difficulty relative to the first month, in logits, with 95% intervals: for exactly the planners of the scale, for any planner, and for any reader. Drift: how much more difficult the month is for the anchors than the planners predict. SD: standard deviation \
+        let note = "Mean difficulty relative to the first month, in logits, with 95% intervals: for exactly the planners of the scale, for any planner, and for any reader. Drift: how much more difficult the month is for the anchors than the planners' results predict. SD: standard deviation \
                     of the difficulties of its levels. Misfit: about 1 if the episodes fit the model.";
         let columns = [
             "month",
@@ -259,7 +259,7 @@ impl Timeline {
     /// Returns a table of results by player and month, with the number of wins and the number of distinct
     /// episodes.
     fn plays(&self) -> Table {
-        let note = "Wins and distinct episodes that were placed. A dash: the player did not play. Suite: \
+        let note = "Wins and distinct episodes on the levels of the scale. A dash: the player did not play. Suite: \
                     the versions of arcade used for the evaluations.";
         let months = self.months.iter().map(|month| month.name.as_str());
         let columns = ["player"].into_iter().chain(months).chain(["suite"]).collect_vec();

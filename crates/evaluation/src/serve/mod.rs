@@ -1,5 +1,6 @@
-//! Players of known strength that see only the prompt. The players are served as chat completions on
-//! loopback, or called directly ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)).
+//! Players of known strength that see only the prompt. The players answer chat completion requests on the
+//! loopback interface, or are called directly
+//! ([docs/how-to/serve-player.md](../../../../docs/how-to/serve-player.md)).
 //!
 //! Such players have no access to the game, so all their knowledge comes from the conversation. They
 //! therefore test the entire path from the state to the prompt, the answer and the action, and can also test
@@ -142,7 +143,7 @@ fn seed(messages: &[ChatMessage]) -> Seed {
     Seed::from_text(&hasher.finalize().to_hex())
 }
 
-/// Returns the number of tokens that the server bills for a text: one per four bytes.
+/// Returns the number of tokens that the server reports for a text: one per four bytes.
 fn tokens(text: &str) -> u64 {
     text.len().div_ceil(4) as u64
 }

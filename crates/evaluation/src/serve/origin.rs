@@ -24,7 +24,7 @@ pub(super) async fn check(request: Request, next: Next) -> Response {
     }
 }
 
-/// Returns the reason for rejecting a request with the given method and headers, if any.
+/// Returns the reason, if any, for rejecting a request with the given method and headers.
 fn problem(method: &Method, headers: &HeaderMap) -> Option<(StatusCode, &'static str, &'static str)> {
     let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or_default());
     let hosts: Vec<&str> = all(header::HOST).collect();

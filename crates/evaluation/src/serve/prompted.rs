@@ -1,5 +1,5 @@
-//! A served player that is called directly, without a server. It gets the same prompts, and its answers are
-//! parsed in the same way.
+//! A prompt player that is called directly, without a server. It gets the same prompts as with a server, and
+//! its answers are parsed in the same way.
 
 use super::PromptPlayer;
 use crate::log::Journal;

@@ -1,8 +1,8 @@
 //! Plans from a position reconstructed from the prompt.
 //!
 //! The prompt must show all relevant information: the rules must be shown as VGDL, the game must be
-//! deterministic and wait for the player, and the sprites must have no hidden state. If it is uncertain that
-//! these conditions hold, the player does not answer.
+//! deterministic and wait for the player, and the sprites must have no hidden state. The player answers only
+//! if these conditions certainly hold.
 
 use super::Unanswerable;
 use super::shown::Shown;
@@ -51,7 +51,7 @@ const SHOWN_ENDINGS: &[&str] = &["SpriteCounter", "SpriteCounterMore", "MultiSpr
 /// the missing information.
 pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Result<Vec<Action>, Unanswerable> {
     let (game, state) = position(shown, seed.child("unused", 0))
-        .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))?;
+        .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan from this prompt: {why}")))?;
     let seed = seed.child("planner", 0);
     let mut player = OpenLoop::new(spec.player(seed), spec.budget().unwrap_or(BUDGET), seed);
     let (mut actions, _) = player.plan(&game, &state, shown.due);
@@ -67,7 +67,9 @@ pub(super) fn choose(shown: &Shown<'_>, spec: &PlannerSpec, seed: Seed) -> Resul
 /// Returns an error in the same cases as [`choose`].
 pub(super) fn check(shown: &Shown<'_>, spec: &PlannerSpec) -> Result<(), Unanswerable> {
     let found = position(shown, Seed::from_text("unused"));
-    found.map(drop).map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan on this prompt: {why}")))
+    found
+        .map(drop)
+        .map_err(|why| Unanswerable(format!("`planner:{spec}` cannot plan from this prompt: {why}")))
 }
 
 /// Reconstructs the position shown in a prompt, within an equivalent game. If this is impossible, returns the
@@ -103,7 +105,7 @@ fn is_shown(analysis: &Analysis, shown: &Shown<'_>) -> Result<(), String> {
     let game = analysis.game();
     let possible = || game.sprite_types().filter(|&stype| analysis.facts(stype).possible);
     if analysis.is_stochastic() {
-        return Err("the game is random".to_owned());
+        return Err("the game is stochastic".to_owned());
     }
     if let Some(&unseen) = analysis.unseen().first() {
         return Err(format!("the {} affects play but is not visible", game.name(unseen)));
@@ -160,7 +162,7 @@ impl Position {
                     names => match (mapping.get(names), next) {
                         (Some(&symbol), _) => symbol,
                         (None, Some(symbol)) => *mapping.entry(names).or_insert(symbol),
-                        (None, None) => return Err("the prompt shows too many different cells".to_owned()),
+                        (None, None) => return Err("the prompt shows too many kinds of cell".to_owned()),
                     },
                 });
             }
@@ -221,7 +223,7 @@ mod tests {
         (seen.outcome, avatar, resources, board)
     }
 
-    /// Positions of corpus games reconstructed from prompts continue in the same way as the original states.
+    /// Corpus positions that are reconstructed from prompts continue in the same way as the original states.
     #[test]
     fn positions_read_from_a_board_play_like_the_original() {
         let settings = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };

@@ -1,4 +1,4 @@
-//! A server for OpenAI-compatible chat completions that are answered by a player.
+//! A server for OpenAI-compatible chat completion requests, which a player answers.
 
 use super::refusal::refusal;
 use super::{PromptPlayer, origin, prompt_tokens, seed, tokens};
@@ -173,7 +173,7 @@ async fn complete(
         Ok(read) => read,
         Err(why) => return unreadable(&why),
     };
-    // A connection that only waits for the player to answer its complete request does not block other
+    // The request is complete, so keeping its connection open until the player answers does not block other
     // clients.
     let _kept = asker.keep();
     let answered = tokio::task::spawn_blocking(move || {

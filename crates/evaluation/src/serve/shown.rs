@@ -25,7 +25,7 @@ pub(super) struct Shown<'a> {
     /// The names in each cell, in row-major order. Within a cell, the names are ordered from bottom to top,
     /// without floors.
     pub(super) cells: Vec<Vec<&'a str>>,
-    /// The names of floors, omitted from the board.
+    /// The names of the floors, which the board does not show.
     pub(super) floors: Vec<&'a str>,
     pub(super) tick: u32,
     /// The player's position and type, or `None` if the player is gone.
@@ -36,7 +36,7 @@ pub(super) struct Shown<'a> {
     pub(super) due: u64,
     /// `true` if the prompt requests a plan instead of a single action.
     is_plan: bool,
-    /// The numbered actions, if answers must be numbers, as in the reference style.
+    /// The numbered actions, if the answer must be a number, as in the reference style.
     numbered: Option<Vec<Action>>,
 }
 
@@ -235,7 +235,7 @@ fn holdings(text: &str) -> BTreeMap<&str, i32> {
     items.filter_map(|(amount, name)| Some((name, amount.parse().ok()?))).collect()
 }
 
-/// Parses the number at the start of a text.
+/// Parses the number at the start of a string.
 fn leading_number(text: &str) -> Option<u64> {
     let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     text[..end].parse().ok()

@@ -66,7 +66,7 @@ pub struct Study {
     pub by_game: Vec<Matrix>,
     /// The heat maps by level, one per [`Scope`] with models.
     pub by_level: Vec<Matrix>,
-    /// The comparisons between models, and of models with other players.
+    /// The comparisons of models with each other and with other players.
     pub pairs: Contrasts,
     /// The comparisons between each model's zero-shot mode and its contextual mode.
     pub modes: Contrasts,
@@ -133,7 +133,7 @@ pub struct StudyGame {
 pub struct StudyLevel {
     /// The level number.
     pub number: usize,
-    /// The length of the shortest win in ticks, if proved optimal.
+    /// The length of the shortest win in ticks, if it was proved to be optimal.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -174,7 +174,7 @@ impl Study {
         }
         if practice > 0 {
             study.notes.push(format!(
-                "{practice} episodes on first levels of a series are for practice, and are left out of all numbers."
+                "{practice} episodes on the first level of a series are for practice, and are excluded from all numbers."
             ));
         }
         study.episodes.sort_by_key(|episode| (place(episode), episode.metrics.run));
@@ -262,7 +262,7 @@ impl Study {
         }
     }
 
-    /// Returns the players included in numbers across several players: the players on the first player's
+    /// Returns the players that are included in figures over several players: those on the first player's
     /// track, and the baselines that read no prompts.
     pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
         let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());

@@ -21,15 +21,16 @@ impl Study {
     /// Results of the same person in several folders are merged. Persons are the same if their name, mode,
     /// aids, prompts, decoding and served version are equal.
     ///
-    /// Games with the same ID count as one game in two cases: their rules are equal except for names, and
-    /// their levels start in the same states, or their rules and levels are mirrored. Results on the two
-    /// variants belong to separate players.
+    /// Two variants of a game with the same ID count as one game in two cases. Either their rules are equal
+    /// except for names, and their levels start in the same states, or their rules and levels are mirrored.
+    /// Results on the two variants belong to separate players.
     ///
     /// Cost: one [`replay`](crate::metrics::replay) per episode, on the threads of the current rayon pool.
     ///
     /// # Errors
-    /// Returns an error if a folder or log cannot be read, if a replay differs from its log, if two folders
-    /// contain the same episode of the same player, or if the same name stands for different games or levels.
+    /// Returns an error if a folder or log cannot be read, or if a replay differs from its log. Also returns
+    /// an error if two folders contain the same episode of the same player, or if different games or levels
+    /// have the same name.
     pub fn read(folders: &[PathBuf]) -> Result<Study, EvaluationError> {
         let mut results: Vec<PersonResults> = Vec::new();
         let mut names = Names::default();
@@ -54,8 +55,8 @@ impl Study {
             let open = tasks.len() - measured.len();
             if evaluation.settings.adaptive.is_some() {
                 notes.push(format!(
-                    "The levels of {} were chosen by its earlier results (--adaptive), so its win rate is \
-                     not a valid measure; `arcade study scale` places the player.",
+                    "The levels of {} were chosen based on its earlier results (--adaptive), so its win rate is \
+                     not a valid measure; use `arcade study scale` to place the player on a scale.",
                     player.label()
                 ));
             } else if open > 0 {
@@ -182,8 +183,8 @@ impl Names {
             return Ok(Surface::Own);
         };
         let surface = known.surface(subject, &levels).map_err(|differs| {
-            let what = format!("its {differs} `{}` differs from that of an earlier folder", subject.id);
-            EvaluationError::malformed(folder, format!("{what}; report on them separately"))
+            let what = format!("its {differs} `{}` differs from that in an earlier folder", subject.id);
+            EvaluationError::malformed(folder, format!("{what}; report on the folders separately"))
         })?;
         if surface != Surface::Mirrored {
             for (number, start) in starts {

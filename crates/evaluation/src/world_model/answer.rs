@@ -1,4 +1,4 @@
-//! Reads games and explorations from answers, and reports the problems of unusable answers.
+//! Reads games and explorations from answers, and reports the problems in unusable answers.
 
 use super::recording::Recording;
 use super::task::WorldModelTask;
@@ -6,7 +6,7 @@ use crate::player::mailbox::MAX_ANSWER;
 use engine::{Action, Diagnostic, Diagnostics, Game, line_and_column};
 use itertools::Itertools;
 
-/// The maximum number of problems that an examinee is told at once.
+/// The maximum number of problems that are reported to an examinee at once.
 const MAX_TOLD: usize = 20;
 
 /// The content of an answer.
@@ -14,9 +14,9 @@ const MAX_TOLD: usize = 20;
 pub(super) enum Answer {
     /// A usable game.
     Game(Game),
-    /// The recording of the actions that the examinee chose, which is not empty.
+    /// The recording of the actions that the examinee chose. It is never empty.
     Played(Recording),
-    /// The problems of an unusable answer, one per line.
+    /// The problems in an unusable answer, one per line.
     Unusable(String),
 }
 
@@ -27,7 +27,7 @@ pub(super) fn shorten(answer: &mut String) {
     answer.truncate(end.unwrap_or_default());
 }
 
-/// Reads an answer: a game, or actions if `left` actions are left for exploring.
+/// Reads an answer: a game, or at most `left` actions that explore the game.
 pub(super) fn read(task: &WorldModelTask, answer: &str, left: usize) -> Answer {
     if answer.len() > MAX_ANSWER {
         return Answer::Unusable(format!(

@@ -23,7 +23,7 @@ pub struct Examined {
     pub attempts: u32,
     /// The number of actions that the examinee played to explore the game.
     pub explored: usize,
-    /// The problems of the last answer, if it contains no usable game.
+    /// The problems in the last answer, if it contains no usable game.
     pub problems: Option<String>,
     /// The canonical text of the examinee's game, if it is usable.
     pub game: Option<String>,
@@ -35,10 +35,10 @@ pub struct Examined {
 /// of unusable answers.
 pub type Ask<'a> = dyn FnMut(Address, &[ChatMessage]) -> Result<ChatReply, Halt> + 'a;
 
-/// Examines whoever answers `ask`. Answers that are already in the log are not requested again.
+/// Examines the examinee that answers through `ask`. Answers that are already in the log are not requested again.
 ///
 /// # Errors
-/// Returns an error if `ask` does, if the log cannot be written, or if the log contains a different question.
+/// Returns an error if `ask` returns one, if the log cannot be written, or if the log contains a different question.
 pub fn examine(task: &WorldModelTask, journal: &mut Journal, ask: &mut Ask<'_>) -> Result<Examined, Halt> {
     let conversation = vec![message(Role::User, prompt::question(task))];
     let mut dialogue = Dialogue { task, journal, conversation };
@@ -115,7 +115,7 @@ impl Dialogue<'_> {
         });
         let logged = texts.clone().count();
         if texts.zip(&self.conversation).any(|(text, message)| *text != message.text) {
-            let problem = "the log contains a different question; use the settings and the version of arcade that began it";
+            let problem = "the log contains a different question; use the settings and the version of arcade with which the log was started";
             return Err(Halt::Log(problem.to_owned()));
         }
         for (id, message) in self.conversation.clone().into_iter().enumerate().skip(logged) {

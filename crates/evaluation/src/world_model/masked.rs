@@ -8,13 +8,13 @@ use engine::syntax::{MappingLine, print_bare};
 use engine::{Game, Level};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The characters of masked levels. The characters `w` and `A` are missing, because they have default meanings.
+/// The characters of masked levels. The characters `w` and `A` are excluded, because they have default meanings.
 const CHARACTERS: &str = "abcdefghijklmnopqrstuvxyzBCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-/// The maximum number of levels of a masked game. Further levels would make prompts longer without showing new rules.
+/// The maximum number of levels in a masked game. More levels would make prompts longer without showing new rules.
 const MAX_LEVELS: usize = 3;
 
-/// A game whose names and level characters mean nothing. It behaves like the original game.
+/// A game whose names and level characters are meaningless. It behaves like the original game.
 #[derive(Clone, Debug)]
 pub(super) struct MaskedGame {
     /// The source text of the masked game, which is the perfect answer.
@@ -22,11 +22,11 @@ pub(super) struct MaskedGame {
     pub(super) game: Game,
     /// The lines of the LevelMapping for the characters in the levels, sorted by character.
     pub(super) mapping: Vec<String>,
-    /// The deterministic levels, at most [`MAX_LEVELS`].
+    /// The deterministic levels, of which there are at most [`MAX_LEVELS`].
     pub(super) levels: Vec<MaskedLevel>,
 }
 
-/// A level in masked characters.
+/// A level written with masked characters.
 #[derive(Clone, Debug)]
 pub(super) struct MaskedLevel {
     pub(super) number: usize,
@@ -84,7 +84,7 @@ impl MaskedGame {
     }
 }
 
-/// Returns the masked character of each level character, drawn at random.
+/// Returns a masked character, drawn at random, for each level character.
 fn symbols(mapping: &[MappingLine], number: u64) -> BTreeMap<char, char> {
     let mut pool: Vec<char> = CHARACTERS.chars().collect();
     Seed::from_text("world model").child("characters", number).sampler().shuffle(&mut pool);

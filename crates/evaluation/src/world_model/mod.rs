@@ -1,9 +1,9 @@
-//! Examinations in building world models: from recordings of a masked game, or by exploring it,
-//! the examinee writes the game in VGDL.
+//! Examinations in building world models. The examinee studies recordings of a masked game, or explores the game, and
+//! then writes the game in VGDL.
 //!
 //! A [`WorldModelTask`] contains a game with masked names and characters, recordings for the examinee, and held-out
-//! recordings. [`examine`] asks the examinee, returns the diagnostics of unusable games to it, and scores the game that
-//! it writes. Everything but the answers follows from the task's settings.
+//! recordings. [`examine`] questions the examinee, reports the diagnostics of unusable games to it, and scores the game
+//! that it writes. Everything except the answers follows from the task's settings.
 //!
 //! A transition is reproduced if the examinee's game, started from the same level and stepped with the same actions so
 //! far, gives the same observation. The same definition applies after the first deviation of an episode: a later

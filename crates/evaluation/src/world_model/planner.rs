@@ -1,4 +1,4 @@
-//! The fixed planner, which plans on one game and plays another.
+//! The fixed planner, which plans in one game and plays another.
 
 use super::recording::start;
 use super::seen::Viewer;
@@ -7,11 +7,12 @@ use agents::search::{Answer, Pushes, SearchLimits, best_first};
 use engine::{Action, Analysis, Game, Level, Outcome};
 use serde::{Deserialize, Serialize};
 
-/// The limits of the search for a plan. Both are needed: a game with thousands of sprites fills the memory first.
+/// The limits of the search for a plan. Both are needed, because a game with thousands of sprites reaches the memory
+/// limit first.
 const LIMITS: SearchLimits = SearchLimits { calls: 10_000, bytes: 64 << 20 };
 
-/// The results of the fixed planner: a best-first width search for some win of at most 10,000 forward-model calls. It
-/// plans from a level's start and plays the plan in the true game, without looking at the true game in between.
+/// The results of the fixed planner: a best-first width search for any win, with at most 10,000 forward-model calls. It
+/// plans from a level's start, and plays the plan in the true game without observing the true game in between.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannerScore {
@@ -19,7 +20,7 @@ pub struct PlannerScore {
     pub levels: u64,
     /// The number of levels on which a plan made with the examinee's game wins the true game.
     pub wins: u64,
-    /// The number of levels on which a plan made with the true game wins it, which is the maximum to expect.
+    /// The number of levels on which a plan made with the true game wins that game. More wins are not expected.
     pub true_wins: u64,
 }
 

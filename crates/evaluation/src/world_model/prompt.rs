@@ -1,4 +1,4 @@
-//! The texts that examinees read: the question, and the complaints about unusable answers.
+//! The texts that examinees read, such as the question and the messages about unusable answers.
 
 use super::recording::Recording;
 use super::seen::Seen;
@@ -181,7 +181,7 @@ fn cells(task: &WorldModelTask, columns: u32, before: &Seen, after: &Seen) -> Ve
         .collect()
 }
 
-/// Returns the facts that boards do not show, if they differ from those before.
+/// Returns the facts that boards do not show, if they have changed.
 fn facts(task: &WorldModelTask, before: Option<&Seen>, after: &Seen) -> Vec<String> {
     let none = Vec::new();
     let (score, resources, health, outcome) = before.map_or((0.0, &none, 0, Outcome::Ongoing), |seen| {

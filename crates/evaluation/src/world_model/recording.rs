@@ -7,12 +7,12 @@ use agents::TouchEverything;
 use base::Seed;
 use engine::{Action, Level, SpriteType, State};
 
-/// The odds of a random action of the exploring player: one in `RANDOM_ODDS`. Without random actions, its episodes would
-/// be alike.
+/// The reciprocal of the probability that the exploring player chooses a random action. Without random actions, its
+/// episodes would be alike.
 const RANDOM_ODDS: usize = 4;
 
 base::named_enum! {
-    /// The most important event of a transition. The kinds are listed from the least to the most important one.
+    /// The most important event in a transition. The kinds are listed from least to most important.
     pub enum TransitionKind {
         /// Nothing visible changed.
         Nothing = "nothing",
@@ -20,7 +20,7 @@ base::named_enum! {
         PlayerMoved = "player moved",
         /// Another sprite moved.
         SpriteMoved = "sprite moved",
-        /// Sprites appeared, disappeared or changed their type, or the resources or the health changed.
+        /// Sprites appeared, disappeared or changed their type, or the player's resources or health changed.
         Changed = "something changed",
         /// The score or the outcome changed.
         Result = "score or outcome",
@@ -33,14 +33,15 @@ pub(super) struct Recording {
     /// The index of the level in the masked game.
     pub(super) level: usize,
     pub(super) actions: Vec<Action>,
-    /// The observations: the first one before all actions, and one after each action.
+    /// The observations: one before the first action, and one after each action.
     pub(super) seen: Vec<Seen>,
     /// The kind of each transition.
     pub(super) kinds: Vec<TransitionKind>,
 }
 
-/// Records episodes, in turn on each level. The exploring player has no experience at the start of an episode. In every
-/// second round of levels, a random walk is recorded instead, because it does things that a player has no reason to do.
+/// Records episodes on each level in turn. The exploring player starts each episode without experience. In every second
+/// round through the levels, a random walk is recorded instead, because it does things that a player has no reason to
+/// do.
 pub(super) fn record(
     masked: &MaskedGame,
     viewer: &Viewer,
@@ -76,7 +77,7 @@ pub(super) fn start(viewer: &Viewer, level: &Level) -> State {
 }
 
 impl Recording {
-    /// Records actions from the start of a level, until the episode is over.
+    /// Plays actions from the start of a level until the episode is over, and records them.
     pub(super) fn of_actions(task: &WorldModelTask, level: usize, actions: &[Action]) -> Recording {
         let viewer = Viewer::new(&task.masked.game, &task.names);
         let mut state = start(&viewer, &task.masked.levels[level].level);

@@ -1,4 +1,4 @@
-//! The score of a returned game.
+//! The score of a game written by an examinee.
 
 use super::planner::{self, PlannerScore};
 use super::recording::TransitionKind;
@@ -35,8 +35,8 @@ pub struct WorldModelScore {
 }
 
 impl WorldModelScore {
-    /// Scores a game, or a missing game, which reproduces nothing. Cost: one forward-model call for each held-out
-    /// transition, and two searches for each level ([`PlannerScore`]).
+    /// Scores a game. A missing game reproduces nothing. Cost: one forward-model call for each held-out transition, and
+    /// two searches for each level ([`PlannerScore`]).
     pub(super) fn of(task: &WorldModelTask, game: Option<&Game>) -> WorldModelScore {
         let mut kinds: BTreeMap<TransitionKind, Reproduced> = BTreeMap::new();
         for kind in task.held_out.iter().flat_map(|recording| &recording.kinds) {
@@ -48,7 +48,7 @@ impl WorldModelScore {
         WorldModelScore { kinds, planner: planner::score(task, game) }
     }
 
-    /// Returns the numbers for transitions of all kinds.
+    /// Returns the sums over all kinds of transition.
     pub fn total(&self) -> Reproduced {
         self.kinds.values().copied().sum()
     }

@@ -2,36 +2,36 @@
 
 use engine::{Game, Outcome, Rect, SpriteType, State};
 
-/// The maximum number of entries of a board. Only boards full of giant sprites have more.
+/// The maximum number of entries on a board. Only boards full of giant sprites have more.
 const MAX_ENTRIES: usize = 1 << 18;
-/// The name number of types that the true game does not have.
+/// The number used instead of a name's index for types that the true game does not have.
 const UNKNOWN: u16 = u16::MAX;
 
-/// The observable part of a state. Two games with the same names can be compared by it.
+/// The observable part of a state, which can be compared between games with the same names.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Seen {
-    /// The visible sprites, as pairs of a cell in row-major order and a name's number, sorted. A sprite that overlaps
-    /// several cells has one entry for each.
+    /// The visible sprites, as sorted pairs of a cell index in row-major order and a name's index. A sprite that
+    /// overlaps several cells has one entry for each cell.
     pub(super) board: Vec<(u32, u16)>,
     pub(super) score: f64,
-    /// The resources that the avatar holds, as pairs of a name's number and a positive or negative amount, sorted.
+    /// The resources that the avatar holds, as sorted pairs of a name's index and a positive or negative amount.
     pub(super) resources: Vec<(u16, i32)>,
-    /// The avatar's health points, or 0 without an avatar and in games without health.
+    /// The avatar's health points, or 0 if there is no avatar or the game has no health.
     pub(super) health: i32,
     pub(super) outcome: Outcome,
 }
 
-/// A game, together with the numbers of its sprite types' names.
+/// A game, with the index of each sprite type's name in the true game.
 #[derive(Clone, Debug)]
 pub(super) struct Viewer {
     pub(super) game: Game,
-    /// For each sprite type, the number of its name.
+    /// For each sprite type, the index of its name.
     numbers: Vec<u16>,
     shown: Vec<SpriteType>,
 }
 
 impl Viewer {
-    /// Creates a viewer of a game. `names` are the names of the true game.
+    /// Creates a viewer for a game. `names` contains the names of the true game.
     pub(super) fn new(game: &Game, names: &[String]) -> Viewer {
         let number = |name: &str| names.iter().position(|own| own == name).map_or(UNKNOWN, |at| at as u16);
         let numbers = game.sprite_types().map(|stype| number(game.name(stype))).collect();

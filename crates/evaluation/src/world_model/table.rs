@@ -4,7 +4,8 @@ use super::recording::TransitionKind;
 use super::score::{Reproduced, WorldModelScore};
 use report::{Table, TableCell};
 
-/// Returns the table of the scores of several games, pooled over all their transitions, with a row per kind of event.
+/// Returns a table of the scores of several games, pooled over all of their transitions, with one row per kind of
+/// event.
 pub fn table(scores: &[&WorldModelScore]) -> Table {
     let of_kind = |kind: TransitionKind| {
         let counts = scores.iter().filter_map(|score| score.kinds.get(&kind)).copied();
@@ -19,7 +20,7 @@ pub fn table(scores: &[&WorldModelScore]) -> Table {
     Table::of(
         "world-models",
         "World models",
-        "Held-out transitions that the games of the examinee reproduce, by the most important event.",
+        "Held-out transitions reproduced by the games of the examinee, by the most important event of a transition.",
         &rows,
         &[
             ("event", &|row| TableCell::text(row.0)),

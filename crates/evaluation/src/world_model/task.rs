@@ -29,10 +29,11 @@ base::named_enum! {
 pub struct WorldModelSettings {
     /// The level of help.
     pub hints: Hints,
-    /// The number of held-out episodes. Unless the examinee explores the game itself, it is shown as many episodes.
+    /// The number of held-out episodes. Unless the examinee explores the game itself, it is shown the same number of
+    /// other episodes.
     pub episodes: u64,
-    /// The number of actions with which the examinee may explore the game, instead of recordings. With 0, it is shown
-    /// recordings.
+    /// The number of actions that the examinee may play to explore the game. If it is 0, the examinee is shown
+    /// recordings instead.
     pub actions: usize,
     /// The maximum number of actions in an episode.
     pub steps: usize,
@@ -46,7 +47,7 @@ pub struct WorldModelTask {
     /// The game's ID in logs and tables.
     pub id: String,
     pub(super) hints: Hints,
-    /// The number of actions for exploring.
+    /// The number of actions that the examinee may play to explore the game.
     pub(super) actions: usize,
     pub(super) masked: MaskedGame,
     /// The masked names of the game's sprite types. Boards refer to them by their indices.
@@ -55,7 +56,7 @@ pub struct WorldModelTask {
     pub(super) held_out: Vec<Recording>,
 }
 
-/// The words of VGDL given to the examinee.
+/// The VGDL words that are given to the examinee.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Words {
     pub(super) classes: BTreeSet<String>,
@@ -91,12 +92,12 @@ impl WorldModelTask {
         })
     }
 
-    /// Returns the source text of the masked true game, which scores 100 %.
+    /// Returns the source text of the masked true game, which scores 100%.
     pub fn true_game(&self) -> &str {
         &self.masked.source
     }
 
-    /// Returns the words that the examinee is given, or `None` without help.
+    /// Returns the words that the examinee is given, or `None` if it is given none.
     pub(super) fn words(&self) -> Option<Words> {
         match self.hints {
             Hints::Used => Some(self.used_words()),
@@ -125,7 +126,7 @@ impl WorldModelTask {
     }
 }
 
-/// Returns the words of the language that draw no random numbers.
+/// Returns all VGDL words that involve no random numbers.
 pub(super) fn candidates() -> Words {
     let is_random = |name: &str| name.contains("Random") || name.contains("Erratic");
     let classes = SpriteClass::ALL.iter().map(|class| class.name()).filter(|name| !is_random(name));

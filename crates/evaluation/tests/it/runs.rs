@@ -202,7 +202,7 @@ fn results_folders_are_locked_and_checked() {
     fs::write(&settings_file, text.replace("\"corridor\"", "\"../corridor\"")).unwrap();
     assert!(refusal(Evaluation::open(&folder)).contains("is not the name of a game"));
     fs::write(&settings_file, "{}").unwrap();
-    assert!(refusal(Evaluation::open(&folder)).contains("not evaluation settings"));
+    assert!(refusal(Evaluation::open(&folder)).contains("not valid evaluation settings"));
 }
 
 /// An episode is not resumed if its log does not replay, or is not a log.
@@ -225,7 +225,7 @@ fn damaged_logs_are_reported() {
     fs::write(&path, damaged.join("\n").replace("\"action\":\"nil\"", "\"action\":\"right\"") + "\n")
         .unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
-    assert!(error.contains("replaying step 0 gives a different result than the log"), "{error}");
+    assert!(error.contains("replaying step 0 gives a result that differs from the log"), "{error}");
     fs::write(&path, "no log\n").unwrap();
     let error = evaluation.run(agent, &Silent).unwrap_err().to_string();
     assert!(error.contains(": line 1 is not an event of an episode"), "{error}");

@@ -249,11 +249,11 @@ fn planners_refuse_games_with_hidden_state() {
     let vgdl = PromptSettings { rules: Rules::Vgdl, ..PromptSettings::default() };
     let check = |source: &str, settings: &PromptSettings, words: &str| {
         let message = refusal(source, CELLAR_LEVEL, settings);
-        assert!(message.starts_with("`planner:mcts:20` cannot plan on this prompt: "), "{message}");
+        assert!(message.starts_with("`planner:mcts:20` cannot plan from this prompt: "), "{message}");
         assert!(message.contains(words), "{message}");
     };
     check(CELLAR, &PromptSettings::default(), "the planner needs the rules as VGDL");
-    check(&CELLAR.replace("crate > Passive", "crate > RandomNPC"), &vgdl, "the game is random");
+    check(&CELLAR.replace("crate > Passive", "crate > RandomNPC"), &vgdl, "the game is stochastic");
     check(
         &CELLAR.replace("drain > Door", "drain > Door hidden=True"),
         &vgdl,

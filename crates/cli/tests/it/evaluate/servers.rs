@@ -90,7 +90,7 @@ fn useless_answers_stop_the_evaluation() {
     assert_eq!(server.received().len(), 20);
     let tally = &json(&stopped)["tally"];
     assert_eq!((&tally["steps"], &tally["invalid"], &tally["ended"]), (&20.into(), &20.into(), &1.into()));
-    let halted = "the evaluation was stopped because 20 of 20 decisions have no usable answer (20 invalid); the logs have the answers";
+    let halted = "the evaluation was stopped because 20 of 20 decisions have no usable answer (20 invalid); the logs contain the answers";
     assert_eq!((&tally["halted"], &tally["infrastructure"]), (&halted.into(), &false.into()));
     let told = text(&stopped.stderr);
     assert!(

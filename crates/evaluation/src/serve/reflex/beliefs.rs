@@ -33,7 +33,7 @@ pub(super) struct Beliefs<'a> {
     /// The sprites whose removal loses the game.
     pub(super) must_keep: BTreeSet<&'a str>,
     pub(super) moves: BTreeSet<&'a str>,
-    /// Pairs of sprites of which the first is removed when it touches the second.
+    /// Pairs of sprites in which the first is removed when it touches the second.
     removals: Vec<(&'a str, &'a str)>,
     /// The sprite created by the use key.
     pub(super) shot: Option<Shot<'a>>,
@@ -175,22 +175,23 @@ fn subject(template: &Template) -> Option<Subject> {
             | Does::Collect
             | Does::Shield { .. } => false,
         };
-        // A template's effects do not include delayed effects and effects elsewhere.
+        // A template's effects do not include delayed effects or effects elsewhere.
         (template.effects.is_empty() || template.effects.iter().any(changes)).then_some(Subject::Change)
     }
 }
 
-/// The words with which conditions refer to the player's resources.
+/// The words that introduce a condition on the player's resources.
 const YOU_HOLD: &str = "you hold";
 
-/// The use key's effect in the description of the keys.
+/// The pattern for the use key's effect in the description of the keys.
 static USE_KEY: LazyLock<Regex> = LazyLock::new(|| {
     let pattern = r"the use key puts (?:a|an) (?P<shot>\S+?)(?: or .*?)? (?P<place>where you are|into the cell ahead of you, empty or not)(?:, which costs (?P<ammo>[^;.]+?)(?:, if you hold more than [^;.]+)?)?[;.]";
     Regex::new(pattern).expect("a pattern of ours")
 });
 
 impl<'a> Beliefs<'a> {
-    /// Derives the beliefs of a player with type `me` from the rules' sentences. Cost: O(sentences × bytes).
+    /// Derives the beliefs of a player of type `me` from the sentences of the rules. Cost: O(sentences ×
+    /// bytes).
     pub(super) fn of(sentences: &[&'a str], me: &'a str) -> Beliefs<'a> {
         let mut beliefs = Beliefs { me, ..Beliefs::default() };
         let fits = |sentence: &&'a str| {

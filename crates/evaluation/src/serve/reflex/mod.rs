@@ -1,7 +1,7 @@
 //! A player that reads the board and the rules from the prompt, and takes the shortest path to a good target.
 //!
-//! The player does not look ahead. Its plan leads from one target to the next as if nothing else moved,
-//! avoiding deadly sprites. The best targets are sprites whose removal wins the game. Next come sprites that
+//! The player does not look ahead. It plans a path from one target to the next as if nothing else moved, and
+//! avoids deadly sprites. The best targets are sprites whose removal wins the game. Next come sprites that
 //! can be collected or that change something, followed by sprites not known to be harmful. The player shoots
 //! at sprites that its shots remove.
 
@@ -16,7 +16,7 @@ use engine::describe::Guide;
 use engine::{Action, Game};
 use std::collections::BTreeMap;
 
-/// The extra cost of a step next to a deadly moving sprite, in steps.
+/// The extra cost, in steps, of a step to a cell next to a deadly moving sprite.
 const DANGER_COST: u32 = 8;
 
 /// The cost of pushing a sprite, in steps.
@@ -80,8 +80,8 @@ struct Reflex<'a> {
 }
 
 impl Reflex<'_> {
-    /// Returns the cell that a step would enter, with `true` for each sprite in the cell that would be taken.
-    /// Other moves and pushes are ignored.
+    /// Returns the cell that a step would enter, with one flag per sprite in the cell: `true` if the step
+    /// would take the sprite. Other moves and pushes are ignored.
     fn imagine(&self, action: Action) -> Option<(usize, Vec<bool>)> {
         let (_, way) = DIRECTIONS.into_iter().find(|(known, _)| *known == action)?;
         let cell = self.board.beside(self.you.cell, way).filter(|&cell| !self.is_blocked(cell))?;
@@ -145,8 +145,8 @@ impl Reflex<'_> {
         Some(1 + near)
     }
 
-    /// Returns the use key if a target is in the line of fire. If there is no such target, returns a turn
-    /// towards a target in a different line, if any.
+    /// Returns the use key if a target is in the line of fire. If there is none, returns a turn towards a
+    /// target in a different direction, if any.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;
         let has_ammo = |ammo: &&str| {
@@ -210,7 +210,7 @@ impl Reflex<'_> {
         (cost == 1 || choices.below(RANDOM_STEP_ODDS) != 0).then_some(first)
     }
 
-    /// Returns a random step without a known disadvantage.
+    /// Returns a random step that has no known disadvantage.
     fn random_step(&self, choices: &mut Sampler) -> Action {
         let safe = |(action, way): (Action, (isize, isize))| {
             let next = self.board.beside(self.you.cell, way)?;

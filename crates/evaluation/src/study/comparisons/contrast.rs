@@ -13,8 +13,8 @@ use statistics::{
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The comparisons of pairs of players. Each of the three lists is a separate family for the
-/// Benjamini–Hochberg correction. A family includes every pair with episodes on both sides, even if their
-/// results are equal, so that its size does not depend on the results.
+/// Benjamini–Hochberg correction. A family includes every pair in which both players have episodes, even if
+/// their results are equal, so that its size does not depend on the results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Contrasts {
     /// Each pair's comparison on each level.
@@ -40,7 +40,7 @@ pub struct Comparison {
     pub episodes: [u64; 2],
     /// The two-sided p-value of Fisher's exact test.
     pub p: f64,
-    /// The p-value corrected for all comparisons in the list (Benjamini–Hochberg).
+    /// The p-value, corrected for all comparisons in the list (Benjamini–Hochberg).
     pub q: f64,
     /// Cohen's h for the first player's win rate compared with the second player's.
     pub h: f64,
@@ -51,7 +51,7 @@ pub struct Comparison {
 /// A comparison of two players on all levels that both played.
 ///
 /// The difference, its interval, h, p and q are computed from the same two rates. Each rate is a mean over
-/// games, where a game's value is the mean over its levels. The results apply to similar games.
+/// games, where a game's value is the mean over its levels. The results generalise to similar games.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverallComparison {
     /// The two players' indices in the study.
@@ -76,7 +76,7 @@ pub struct OverallComparison {
     pub bounds: Option<[f64; 2]>,
     /// The two-sided p-value of the paired t test over games. `None` if there are fewer than two games.
     pub p: Option<f64>,
-    /// The p-value corrected for all pairs in the list with a p-value (Benjamini–Hochberg).
+    /// The p-value, corrected for all pairs in the list that have one (Benjamini–Hochberg).
     pub q: Option<f64>,
     /// Cohen's h, computed from the two players' rates.
     pub h: f64,
@@ -85,12 +85,12 @@ pub struct OverallComparison {
     pub within_levels: WithinLevels,
 }
 
-/// The exact stratified test (Cochran, Mantel, Haenszel). Identical episodes count as one observation.
+/// The exact stratified Cochran–Mantel–Haenszel test. Identical episodes count as one observation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WithinLevels {
     /// The two-sided p-value.
     pub p: f64,
-    /// The common odds ratio of Mantel and Haenszel, or `None` if it is infinite.
+    /// The Mantel–Haenszel common odds ratio, or `None` if it is infinite.
     pub odds_ratio: Option<f64>,
 }
 
@@ -196,8 +196,8 @@ impl Contrasts {
         self.overall.is_empty()
     }
 
-    /// Returns the three lists as tables, sorted by increasing p-value. Longer lists are truncated to `most`
-    /// rows.
+    /// Returns the three lists as tables. The tables by game and by level are sorted by increasing p-value,
+    /// and are truncated to `most` rows.
     pub(crate) fn tables(&self, study: &Study, id: &str, title: &str, most: usize) -> Vec<Table> {
         if self.is_empty() {
             return Vec::new();
@@ -208,11 +208,11 @@ impl Contrasts {
             &format!("{id}-overall"),
             &format!("{title}, over all levels"),
             "Difference between the rates (means over games of means over levels), with the 95% interval and the p-value of the paired t-test over games, which apply to games like these. Fewer than six \
-             games cannot show a difference at 5%. q: corrected for the pairs in this table (Benjamini, \
-             Hochberg). h: Cohen's effect size for the same rates (0.2 small, 0.5 medium, 0.8 large). Bounds: \
+             games cannot show a difference at the 5% level. q: corrected for the pairs in this table \
+             (Benjamini–Hochberg). h: Cohen's effect size for the same rates (0.2 small, 0.5 medium, 0.8 large). Bounds: \
              the difference if all aborted episodes had gone against the first player, and if all had gone \
-             for it. The last two columns apply to exactly these levels: the exact test within levels \
-             (Cochran, Mantel, Haenszel) and its odds ratio, with identical episodes counted once.",
+             in its favour. The last two columns apply to exactly these levels: the exact test within levels \
+             (Cochran–Mantel–Haenszel) and its odds ratio, with identical episodes counted once.",
             &self.overall,
             &[
                 ("first", &|found| label(found.players[0])),
@@ -240,8 +240,8 @@ impl Contrasts {
             let believed = list.iter().filter(|comparison| comparison.q <= 0.05).count();
             let note = format!(
                 "Fisher's exact test, two-sided, for exactly these levels; identical episodes are counted \
-                 once. q: corrected for all {} comparisons (Benjamini, Hochberg); {believed} of the \
-                 corrected values are 0.05 or less. The difference between win rates with Newcombe's 95% \
+                 once. q: corrected for all {} comparisons (Benjamini–Hochberg); {believed} of the \
+                 corrected values are 0.05 or less. Difference: between the win rates, with Newcombe's 95% \
                  interval.{}",
                 list.len(),
                 if list.len() > most {

@@ -31,7 +31,7 @@ pub struct Correlation {
     pub pair: [usize; 2],
     /// Pearson's coefficient with its test, or `None` if a variable is constant.
     pub pearson: Option<Test>,
-    /// Spearman's coefficient with its test by the t approximation, or `None` if a variable is constant.
+    /// Spearman's coefficient with a test based on the t approximation, or `None` if a variable is constant.
     pub spearman: Option<Test>,
 }
 
@@ -73,8 +73,8 @@ impl Correlations {
 
     pub(crate) fn table(&self) -> Table {
         let note = format!(
-            "Over {} episodes ({} with a missing value left out), treated as independent. Corrected: by Bonferroni, for six pairs. \
-             Distance: cells walked.",
+            "Computed over {} episodes, which are treated as independent ({} episodes with a missing value are excluded). Corrected: by \
+             Bonferroni, for six pairs. Distance: cells walked.",
             self.episodes, self.excluded
         );
         let columns =

@@ -123,7 +123,7 @@ pub struct MatrixColumn {
     pub game: usize,
     /// The level number, or `None` for all levels of the game.
     pub level: Option<usize>,
-    /// The length of the shortest win in ticks, if proved optimal.
+    /// The length of the shortest win in ticks, if it was proved to be optimal.
     pub optimal_ticks: Option<usize>,
 }
 
@@ -172,7 +172,7 @@ impl Matrix {
         // The table of steps by level also has a column with the optimum.
         let with_optimum =
             measure == Measure::Steps && self.columns.iter().any(|column| column.level.is_some());
-        let optimum = with_optimum.then_some("fewest to win (proven)");
+        let optimum = with_optimum.then_some("fewest steps to win (proven)");
         let columns: Vec<&str> = [grain].into_iter().chain(names).chain(optimum).collect();
         let mut table = Table::new(&id, &title, note, &columns);
         for (at, column) in self.columns.iter().enumerate() {

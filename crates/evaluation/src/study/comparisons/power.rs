@@ -46,7 +46,7 @@ pub fn power(planned: Design) -> Vec<PowerRow> {
         ("as planned", planned),
         ("one run on each level", Design { runs: 1, ..planned }),
         (
-            "the same number of episodes, one run, on more games",
+            "the same number of episodes, with one run on more games",
             Design { games: games * runs, runs: 1, ..planned },
         ),
         (
@@ -93,8 +93,8 @@ pub fn table(rows: &[PowerRow]) -> Table {
     let Spread { games, levels, matches } = Spread::default();
     let note = format!(
         "The smallest win rates that can be distinguished from 0.1 and from 0.5, with a power of 80%, by the \
-         paired test over games at 5%. Assumed standard deviations: games {games}, levels {levels}, match of \
-         player and game {matches} logit. A dash: no rate can be distinguished, as always with fewer than \
+         paired test over games at 5%. Assumed standard deviations in logits: games {games}, levels {levels}, match of \
+         player and game {matches}. A dash: no rate can be distinguished, as is always the case with fewer than \
          six games. Adding games helps more than adding runs. With a correction for many \
          comparisons, the power is lower."
     );

@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 
 /// The maximum number of players whose failures are described.
 const TOLD: usize = 6;
-/// The number of game kinds listed as won most often, and also the number listed as won least often.
+/// The maximum number of game kinds listed as won most often, and also as won least often.
 const KINDS: usize = 3;
 
 impl Study {

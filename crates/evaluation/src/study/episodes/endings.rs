@@ -20,7 +20,7 @@ pub struct EndingRow {
     pub kind: EndingKind,
     /// The cause as a phrase, such as `died of touching dragonfly`.
     pub cause: String,
-    /// The causing sprites as a phrase, such as `of touching dragonfly`, if any.
+    /// The sprites that caused the ending, if any, as a phrase such as `of touching dragonfly`.
     pub particulars: Option<String>,
     /// The line in the game description that caused the ending, as written.
     pub rule: Option<String>,
@@ -104,8 +104,8 @@ impl Study {
     /// frequent cause comes before its other causes. Aborted episodes come last.
     pub fn telling(&self, player: usize, count: usize) -> Vec<&StudyEpisode> {
         let causes: Vec<&EndingRow> = self.endings.iter().filter(|row| row.player == player).collect();
-        // `numbers` holds each cause's index among the causes of its kind, and `seen` the number of its
-        // episodes so far.
+        // `numbers` contains each cause's index among the causes of its kind, and `seen` counts its episodes
+        // so far.
         let of_kind = |at: usize| causes[..at].iter().filter(|row| row.kind == causes[at].kind).count();
         let numbers: Vec<usize> = (0..causes.len()).map(of_kind).collect();
         let mut seen = vec![0_usize; causes.len()];
@@ -138,9 +138,9 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let label = |player: usize| TableCell::text(study.players[player].label());
     let summary = Table::of(
         "endings",
-        "Episodes not won, by how they ended",
+        "Episodes that were not won, by ending",
         "Died: the avatar was removed. Lost a sprite, sprite appeared: the game was lost by its rules. \
-         Out of time: the game's own limit was reached. Limit of steps: the limit of the evaluation was \
+         Out of time: the game's own time limit was reached. Limit of steps: the evaluation's step limit was \
          reached. Stopped: the engine stopped the episode, which says nothing about the player.",
         &study.ending_summaries,
         &[

@@ -18,7 +18,7 @@ base::named_enum! {
         MaxBumps = "max_bumps",
         /// The bump rate in the last quarter of the steps.
         LateBumpRate = "late_bump_rate",
-        /// The fraction of steps that returned to the cell where the avatar was two steps before.
+        /// The fraction of steps that returned to the cell where the avatar was two steps earlier.
         OscillationRate = "oscillation_rate",
         /// The number of distinct cells visited by the avatar.
         UniqueCells = "unique_cells",
@@ -66,8 +66,8 @@ pub struct FailureMode {
     pub lost: Vec<f64>,
     /// The number of episodes excluded because they have no value for the metric.
     pub excluded: u64,
-    /// Welch's test of the difference between the means, won minus other episodes. `None` if either side has
-    /// fewer than two values, or if there is no variance.
+    /// Welch's test of the difference between the means (won episodes minus other episodes). `None` if either
+    /// side has fewer than two values, or if there is no variance.
     pub welch: Option<WelchTest>,
 }
 
@@ -146,8 +146,8 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let modes = Table::of(
         "failure-modes",
         "Failure modes",
-        "Means, medians and Welch's t test of won against other episodes, treated as independent; corrected by Bonferroni for six \
-         measures. A bump is a step that was not meaningful. Late: in the last quarter of the episode.",
+        "Means, medians and Welch's t test for won episodes against other episodes, which are treated as independent. Corrected: by \
+         Bonferroni, for six measures. A bump is a step that was not meaningful. Late: in the last quarter of the episode.",
         &study.failures,
         &[
             ("measure", &|mode| TableCell::text(mode.measure.title())),
@@ -168,7 +168,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
         "oscillation",
         "Oscillation",
         "The levels with the most oscillation. Oscillation rate: the mean fraction of steps that return \
-         to the cell of two steps before.",
+         to the cell of two steps earlier.",
         &study.oscillations[..study.oscillations.len().min(TOP)],
         &[
             ("player", &|row| TableCell::text(study.players[row.player].label())),

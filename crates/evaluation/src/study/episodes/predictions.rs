@@ -46,9 +46,9 @@ pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     (!study.predictions.is_empty()).then(|| {
         Table::of(
             "predictions",
-            "Predictions of the rules",
-            "The question after the last level of a series: which kinds kill, stop, go or score when they are touched. Right: correct predictions, out of all pairs of a kind and a fact that the rules decide. Insight: the fraction of the kinds for which a fact is true that were named, \
-             minus the fraction of the other kinds that were named, averaged over facts and answers. \
+            "Predictions about the rules",
+            "The question after the last level of a series: which kinds kill, stop, go or score when they are touched. Right: correct predictions, out of all pairs of a kind and a fact that the rules determine. Insight: the fraction of kinds named among those for which a fact is true, \
+             minus the fraction named among the other kinds, averaged over facts and answers. \
              Naming kinds at random gives 0, and a perfect answer gives 1.",
             &study.predictions,
             &[

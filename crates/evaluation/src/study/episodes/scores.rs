@@ -88,7 +88,7 @@ pub struct Scores {
     /// The number of observations. Identical episodes of a player on a level are one observation.
     pub observations: u64,
     /// The number of wins divided by the number of episodes. The interval applies to similar games, or to
-    /// exactly the played levels if they belong to one game.
+    /// exactly the played levels if they all belong to one game.
     pub win_rate: Option<Estimate>,
     /// The mean meaningful step ratio.
     pub meaningful: Option<f64>,
@@ -109,7 +109,8 @@ pub struct Scores {
     /// The step efficiency, averaged over the levels with wins. A level's efficiency is `1 − mean steps of
     /// wins / most steps of any episode`.
     pub efficiency: Option<f64>,
-    /// The mean of `optimal ticks / steps` over the wins on levels whose shortest win is proved optimal.
+    /// The mean of `optimal ticks / steps` over the wins on levels whose shortest win was proved to be
+    /// optimal.
     pub optimality: Option<f64>,
     /// The mean bump rate.
     pub bump_rate: Option<f64>,

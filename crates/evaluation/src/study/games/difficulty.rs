@@ -90,9 +90,9 @@ pub(crate) fn table(study: &Study) -> Table {
     Table::of(
         "difficulty",
         "Difficulty",
-        "Ease: 0.6 win rate + 0.2 normalised reward + 0.2 step efficiency, means over the players of this \
-         study; high is easy. Ease is missing if a component is missing, such as the reward of a game \
-         with equal scores. Unbeaten: no player has won.",
+        "Ease: 0.6 win rate + 0.2 normalised reward + 0.2 step efficiency, each a mean over the players of \
+         this study. A high value means easy. Ease is missing if a component is missing, such as the reward of a game \
+         in which all scores are equal. Unbeaten: no player has won.",
         &study.difficulties,
         &[
             ("game or level", &|row| TableCell::text(study.place(row.game, row.level))),

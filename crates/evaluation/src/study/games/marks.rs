@@ -8,8 +8,8 @@ use serde::Serialize;
 use statistics::{Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One player's results with one commitment on a tier's levels, for levels with reference results. The player
-/// is a reference player or a player in the study.
+/// A player's results with one commitment on those levels of a tier that have reference results. The player
+/// is either a reference player or a player in the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MarkRow {
     /// The tier of the levels.
@@ -20,7 +20,7 @@ pub struct MarkRow {
     pub player: String,
     /// `true` for a reference player, whose results come from the release.
     pub is_mark: bool,
-    /// The tier's number of levels.
+    /// The number of the tier's levels on which the player has results.
     pub levels: u64,
     /// The number of episodes.
     pub episodes: u64,
@@ -103,11 +103,11 @@ pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     let table = Table::of(
         "marks",
         "Compared with the marks of the release",
-        "Players that never change played every level when the release was minted. The rows of marks \
-         give their results on the levels of this report. Tier: how much a level demands of its player, \
-         from 1 to 4. Commitment: the number of actions chosen without looking again. 95% intervals for \
-         games like these (for one game: for exactly its levels). Marks may have had a different limit of \
-         steps, which the release states.",
+        "Reference players, which never change, played every level when the release was minted. The rows \
+         marked `mark` give their results on the levels of this report. Tier: how much a level demands of its player, \
+         from 1 to 4. Commitment: the number of actions chosen without looking again. The 95% intervals apply to \
+         games like these (for a single game, to exactly its levels). Marks may have been played with a different \
+         step limit, which the release states.",
         &study.marks,
         &[
             ("tier", &|row| TableCell::Count(u64::from(row.tier))),

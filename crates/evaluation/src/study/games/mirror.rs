@@ -4,7 +4,7 @@ use crate::mask;
 use engine::syntax::SpriteLine;
 use engine::{Description, Direction, Game};
 
-/// Returns `true` if one game's rules equal the other's with left and right exchanged, regardless of names.
+/// Returns `true` if swapping left and right turns one game's rules into the other's, regardless of names.
 pub(in crate::study) fn is_image(one: &Game, other: &Game) -> bool {
     let facing = |game: &Game| -> Vec<Direction> {
         let concrete = game.sprite_types().filter(|&stype| game.class(stype).is_some());
@@ -15,7 +15,7 @@ pub(in crate::study) fn is_image(one: &Game, other: &Game) -> bool {
     image == facing(other) && rules(one, true) == rules(other, false)
 }
 
-/// Returns a level's canonical text with left and right exchanged.
+/// Returns a level's canonical text with left and right swapped.
 pub(in crate::study) fn level(text: &str) -> String {
     text.lines().map(|row| row.chars().rev().chain(['\n']).collect::<String>()).collect()
 }

@@ -85,7 +85,7 @@ fn by_kind(study: &Study) -> Table {
     let labels: Vec<String> = players.iter().map(|&player| study.players[player].label()).collect();
     let columns: Vec<&str> = ["kind", "games"].into_iter().chain(labels.iter().map(String::as_str)).collect();
     let note = "Win rates by the kind of game that the release states, with intervals over the games of \
-                the kind (for one game: for exactly its levels). Results recorded before kinds existed, \
+                the kind (for a single game, for exactly its levels). Results recorded before kinds existed, \
                 and games from files, have no kind.";
     let mut table = Table::new("kinds", "Results by kind of game", note, &columns);
     for (kind, rows) in &study.kinds.iter().chunk_by(|row| &row.kind) {

@@ -35,7 +35,7 @@ pub struct HorizonRow {
     pub rates: Vec<CommitmentRate>,
     /// The horizon in ticks, with its interval over games.
     pub horizon: Option<Estimate>,
-    /// The lowest and highest horizons that can be reported. The lowest is a quarter of the smallest
+    /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest
     /// effective commitment, but at least one tick. The highest is four times the largest effective
     /// commitment.
     pub range: [f64; 2],
@@ -93,8 +93,8 @@ impl HorizonRow {
     }
 }
 
-/// Returns one row for each player with several commitments and each kind of game that it played, furthest
-/// horizon first.
+/// Returns the rows of players with several commitments, one per kind of game. Rows are sorted by kind, and
+/// then by descending horizon.
 pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
@@ -128,7 +128,7 @@ pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     rows
 }
 
-/// Returns the length of the shortest known win in ticks, by game and level. If no win is proved to be
+/// Returns the length of the shortest known win in ticks, by game and level. If no win was proved to be the
 /// shortest, the shortest win by any player in the study is used.
 fn shortest_wins(study: &Study) -> BTreeMap<(usize, usize), u64> {
     let mut shortest = BTreeMap::new();
@@ -199,7 +199,7 @@ pub(in crate::study) fn table(study: &Study) -> Option<Table> {
         "Horizon: the number of ticks that a player can commit to without looking again and still win half of its episodes on an average level, with a 95% interval over games (logistic in the logarithm of the \
          commitment, with level effects). A commitment longer than the shortest known win of a level counts \
          as a commitment of that length. No value is given below one tick or beyond four times the largest \
-         commitment: ≤ and ≥ mark these bounds. Deterministic games require exact foresight, stochastic \
+         commitment: ≤ and ≥ mark these bounds. Deterministic games require exact foresight; stochastic \
          games require plans that work whatever happens.",
         &study.horizons,
         &[

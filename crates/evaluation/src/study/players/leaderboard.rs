@@ -14,8 +14,8 @@ pub struct LeaderRow {
     pub player: usize,
     /// The scores over all the player's episodes.
     pub scores: Scores,
-    /// The bounds of the win rate, as if all aborted episodes had been lost, or all had been won. `None` if
-    /// no episode was aborted.
+    /// The bounds of the win rate, computed as if all aborted episodes had been lost, or all had been won.
+    /// `None` if no episode was aborted.
     pub bounds: Option<[f64; 2]>,
     /// The origins of the player's choices.
     pub choices: Choices,
@@ -66,12 +66,12 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let leaders = Table::of(
         "leaderboard",
         "Leaderboard",
-        "Win rate: wins divided by ended episodes, with a 95% interval for games like these (for one game: for exactly these levels). Bounds: the win rate if all aborted episodes had been lost, and if all \
-         had been won. Different: identical episodes of a level counted once. The overall score \
-         is the mean of meaningful step ratio, spared steps, normalised reward and win rate; it rewards \
-         quick losses too. Normalised reward, and with it the overall score, is relative to the players of \
-         this report: it changes when others join or leave. Optimality: proven minimum number of ticks \
-         divided by steps, over wins. Aborted: episodes stopped by the network, caps or interruptions, which are \
+        "Win rate: wins divided by ended episodes, with a 95% interval for games like these (for a single game, for exactly these levels). Bounds: the win rate if all aborted episodes had been lost, and if all \
+         had been won. Different: the number of episodes, with identical episodes of a level counted once. The overall score \
+         is the mean of meaningful step ratio, spared steps, normalised reward and win rate; it also rewards \
+         quick losses. Normalised reward, and with it the overall score, is relative to the players of \
+         this report: it changes when players are added or removed. Optimality: proven minimum number of ticks \
+         divided by steps, averaged over wins. Aborted: episodes stopped by the network, caps or interruptions, which are \
          excluded from all columns except the bounds.",
         &study.leaderboard,
         &[

@@ -11,7 +11,7 @@ pub struct Player {
     pub name: String,
     /// The mode, `zero-shot` or `contextual`, or `None` for players that are not models.
     pub mode: Option<String>,
-    /// Flags for how the player's prompts differ from the default, one per difference, sorted.
+    /// The differences between the player's prompts and the default prompts, as sorted flags.
     pub aids: Vec<String>,
     /// The settings that distinguish the player from other players with the same name, mode and aids. Each
     /// setting is a phrase such as `temperature 0` or `served by m-2026-08`, and the phrases are sorted. The

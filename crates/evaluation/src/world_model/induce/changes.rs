@@ -1,4 +1,4 @@
-//! The changes of a guess that a deviation suggests.
+//! The changes to a guess that a deviation suggests.
 
 use super::clues::Clues;
 use super::guess::{Guess, Rule};
@@ -13,11 +13,11 @@ const COOLDOWNS: [u32; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
 /// The lifetimes of flickers to try, in ticks.
 const LIFETIMES: [u32; 12] = [1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20];
 
-/// Effects that many games use. Of equally good effects, they are preferred.
+/// The effects that many games use. They are preferred among equally good effects.
 const COMMON: [&str; 6] =
     ["killSprite", "stepBack", "killBoth", "collectResource", "bounceForward", "transformTo"];
 
-/// Returns the changed guesses, the most plausible ones first.
+/// Returns the changed guesses, most plausible first.
 pub(super) fn changes(
     guess: &Guess,
     words: &Words,
@@ -26,7 +26,8 @@ pub(super) fn changes(
 ) -> Vec<Guess> {
     let mut changed = ends(guess, words, clues, &clues.absent);
     changed.extend(rules(guess, words, clues));
-    // The rule that removes the last sprite of a type and the termination that counts the type are seen in one step.
+    // A rule that removes the last sprite of a type and a termination that counts the type take effect in the same
+    // step.
     for ended in ends(guess, words, clues, &clues.vanishing) {
         changed.extend(rules(&ended, words, clues));
     }
@@ -50,7 +51,8 @@ fn removals(guess: &Guess, clues: &Clues) -> Vec<Guess> {
     rules.chain(ends).collect()
 }
 
-/// Adds terminations that count sprites of the given types, which have no sprites after the step.
+/// Returns guesses with an added termination that counts sprites of the given types. These types have no sprites after
+/// the step.
 fn ends(guess: &Guess, words: &Words, clues: &Clues, absent: &[String]) -> Vec<Guess> {
     let win = match clues.outcome {
         Some(Outcome::Won) => "True",
@@ -72,7 +74,7 @@ fn ends(guess: &Guess, words: &Words, clues: &Clues, absent: &[String]) -> Vec<G
     lines.map(with).collect()
 }
 
-/// Adds rules for pairs of types near the deviation, or replaces rules of the same pair.
+/// Returns guesses with an added rule for a pair of types near the deviation, with or without the pair's other rules.
 fn rules(guess: &Guess, words: &Words, clues: &Clues) -> Vec<Guess> {
     let partners = clues.nearby.iter().map(String::as_str).chain(["EOS"]);
     let pairs = clues.nearby.iter().cartesian_product(partners);
@@ -94,7 +96,7 @@ fn rules(guess: &Guess, words: &Words, clues: &Clues) -> Vec<Guess> {
         let mut with = guess.clone();
         with.rules.push(rule.clone());
         if let Some(at) = guess.rules.iter().position(|other| is_same(&other)) {
-            // After a rule that moves the first sprite away, later rules of the pair do not run.
+            // After a rule that moves the first sprite away, later rules for the pair do not run.
             let mut before = guess.clone();
             before.rules.insert(at, rule.clone());
             changed.push(before);
@@ -108,7 +110,7 @@ fn rules(guess: &Guess, words: &Words, clues: &Clues) -> Vec<Guess> {
     changed
 }
 
-/// Returns an effect with the parameters to try.
+/// Returns the forms of an effect to try, each with different parameters.
 fn effects(keyword: &str, clues: &Clues) -> Vec<String> {
     let mut forms = vec![keyword.to_owned()];
     for (key, kind) in effect_parameters(keyword) {
@@ -125,7 +127,7 @@ fn effects(keyword: &str, clues: &Clues) -> Vec<String> {
     forms
 }
 
-/// Returns the values of a parameter to try, as text to append. An empty text stands for the default.
+/// Returns the values to try for a parameter, as text to append. An empty text stands for the default.
 fn values(key: &str, kind: ParameterKind, clues: &Clues) -> Vec<String> {
     let given = |value: &dyn std::fmt::Display| format!(" {key}={value}");
     let default = || vec![String::new()];
@@ -143,11 +145,11 @@ fn values(key: &str, kind: ParameterKind, clues: &Clues) -> Vec<String> {
     }
 }
 
-/// Changes the classes or the positions of suspicious types.
+/// Returns guesses in which a suspicious type has a different class or position in the SpriteSet.
 fn classes(guess: &Guess, words: &Words, clues: &Clues, is_avatar: &dyn Fn(&str) -> bool) -> Vec<Guess> {
     let mut changed = Vec::new();
     for (at, (name, old)) in guess.types.iter().enumerate() {
-        // A sprite may appear too early because of the sprite that makes it.
+        // A sprite may appear too early because of the sprite that creates it.
         let makes = |suspect: &String| old.split(['=', ' ']).any(|word| word == suspect);
         let may_make = !clues.appearing.is_empty() && clues.nearby.contains(name);
         let is_suspect = clues.suspects.contains(name) || clues.suspects.iter().any(makes);
@@ -180,8 +182,8 @@ fn classes(guess: &Guess, words: &Words, clues: &Clues, is_avatar: &dyn Fn(&str)
     changed
 }
 
-/// Makes the sprites that a producer makes move at once. A sprite can move in the step in which it appears, so that a
-/// change of its maker alone would not help.
+/// Returns guesses in which the sprites that a producer creates move immediately. A sprite can move in the step in
+/// which it appears, so changing only its producer would not help.
 fn moving(guess: &Guess, maker: &str, clues: &Clues) -> Vec<Guess> {
     let is_producer = ["SpawnPoint", "Bomber"].iter().any(|class| maker.starts_with(class));
     let is_made = |name: &str| maker.split(['=', ' ']).any(|word| word == name);
@@ -196,7 +198,7 @@ fn moving(guess: &Guess, maker: &str, clues: &Clues) -> Vec<Guess> {
     moved.collect()
 }
 
-/// Returns the parameters of a class to try, as texts to append.
+/// Returns the parameters to try for a class, as texts to append.
 fn parameters(class: &str, guess: &Guess, clues: &Clues) -> Vec<String> {
     let cooldowns =
         || std::iter::once(String::new()).chain(COOLDOWNS.iter().map(|ticks| format!(" cooldown={ticks}")));

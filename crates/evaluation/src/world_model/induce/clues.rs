@@ -7,15 +7,16 @@ use std::collections::BTreeSet;
 
 /// The facts that narrow down the changes to consider.
 pub(super) struct Clues {
-    /// The names of the types on cells that differ between the guess and the recording, or before and after the step.
+    /// The names of the types whose sprites differ between the guess and the recording or, if there are none, before
+    /// and after the step. If nothing differs, the names of all types on the boards.
     pub(super) suspects: Vec<String>,
-    /// The names of the types on these cells and on their neighbours, including the suspects.
+    /// The names of the types on the cells with differences and on neighbouring cells, including the suspects.
     pub(super) nearby: Vec<String>,
-    /// The names of the types whose sprites appear in the recording, but not in the guess.
+    /// The names of the types with sprites that appear in the recording, but not in the guess.
     pub(super) appearing: Vec<String>,
     /// The difference in score between the recording and the guess.
     pub(super) score: f64,
-    /// The changes of health and of resources in the recording.
+    /// The changes in health and in resources in the recording.
     pub(super) amounts: Vec<i32>,
     /// The outcome in the recording, if the guess has a different one.
     pub(super) outcome: Option<Outcome>,

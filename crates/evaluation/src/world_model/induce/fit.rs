@@ -17,10 +17,10 @@ pub(super) struct Fit {
 /// The quality of a guess. Better guesses compare as greater.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Quality {
-    /// The number of transitions before the first deviations of episodes.
+    /// The total number of transitions before each episode's first deviation.
     explained: usize,
-    /// The number of differences after the first deviations. Several actors may begin to move in the same step, and a
-    /// change that explains one of them is progress.
+    /// The number of differences at the first deviations. Several sprites may begin to move in the same step, and a
+    /// change that explains only one of them is still progress.
     wrong: Reverse<usize>,
 }
 
@@ -33,7 +33,7 @@ impl Sum for Quality {
     }
 }
 
-/// The first transition of an episode that a guess does not reproduce.
+/// An episode's first transition that a guess does not reproduce.
 #[derive(Clone, Debug)]
 pub(super) struct Deviation<'a> {
     pub(super) before: &'a Seen,
@@ -74,7 +74,7 @@ impl Fit {
         Some(Fit { viewer: Viewer::new(&game, &task.names), levels })
     }
 
-    /// Returns how well the guess explains an episode.
+    /// Returns the quality of the guess on an episode.
     pub(super) fn quality(&self, recording: &Recording) -> Quality {
         let (explained, deviation) = self.follow(recording);
         Quality { explained, wrong: Reverse(deviation.map_or(0, |deviation| deviation.size())) }

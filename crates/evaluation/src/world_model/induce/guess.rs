@@ -3,7 +3,7 @@
 use crate::world_model::task::WorldModelTask;
 use std::fmt::Write;
 
-/// A guess at the rules. It consists of words, so that any change is easy to make and may fail to compile.
+/// A guess at the rules. It is stored as text, so any change is easy to make, but may fail to compile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Guess {
     /// The sprite types with their classes and parameters, such as `("t3", "Missile orientation=LEFT")`.
@@ -39,7 +39,7 @@ impl Guess {
         text
     }
 
-    /// Returns the number of words. Of guesses that explain the recordings equally well, the shortest is preferred.
+    /// Returns the number of words. Among guesses that explain the recordings equally well, the shortest is preferred.
     pub(super) fn words(&self) -> usize {
         let words = |text: &String| text.split(' ').count();
         self.types.iter().map(|(_, class)| words(class)).sum::<usize>()

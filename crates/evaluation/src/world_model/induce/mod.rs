@@ -1,10 +1,10 @@
 //! The reference examinee, which induces rules from the recordings by trying changes.
 //!
 //! The examinee begins with a game in which nothing happens, except that the player loses if its sprite disappears. It
-//! looks at the earliest deviation of an episode and tries all classes, rules and terminations for the sprite types near
-//! that deviation. It keeps the change that explains the most transitions before the first deviations; of these, the one
-//! with the fewest differences after the first deviations; of equally good ones, the one with the fewest words. It
-//! stops if no single change is better. Like any examinee, it uses only the question's content.
+//! looks at the earliest deviation of an episode, and tries all classes, rules and terminations for the sprite types
+//! near that deviation. It keeps the change that explains the most transitions before the first deviations. Ties are
+//! broken by the fewest differences at the first deviations, and then by the fewest words. The search stops if no
+//! single change is an improvement. Like any examinee, it uses only the question's content.
 
 mod changes;
 mod clues;
@@ -50,7 +50,7 @@ pub fn induce(task: &WorldModelTask) -> String {
 struct Search<'a> {
     task: &'a WorldModelTask,
     words: Words,
-    /// The names of the types in the LevelMapping and on boards, except for built-in types that do not occur.
+    /// The names of the types that occur in the LevelMapping, on boards or as resources.
     visible: Vec<String>,
     /// The names of the types that the player controls at the start of the levels.
     avatars: BTreeSet<String>,
@@ -58,7 +58,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Returns the guess that nothing happens, except that the player loses if its sprite disappears.
+    /// Returns the first guess: nothing happens, except that the player loses if its sprite disappears.
     fn first(&self) -> Guess {
         let task = self.task;
         let shown = shown(task);
@@ -86,7 +86,7 @@ impl<'a> Search<'a> {
         Guess { types, rules: Vec::new(), ends }
     }
 
-    /// Returns the episode with the earliest deviation, except for episodes in `stuck`.
+    /// Returns the episode with the earliest deviation, ignoring the episodes in `stuck`.
     fn earliest(&self, guess: &Guess, stuck: &BTreeSet<usize>) -> Option<(usize, Deviation<'a>)> {
         let fit = Fit::new(self.task, guess)?;
         let followed = self.task.recorded.iter().enumerate().filter(|(at, _)| !stuck.contains(at));
@@ -97,7 +97,7 @@ impl<'a> Search<'a> {
         deviating.min_by_key(|(number, at, _)| (*number, *at)).map(|(_, at, deviation)| (at, deviation))
     }
 
-    /// Returns the best change of a guess that explains an episode better, if it improves the total.
+    /// Returns the best changed guess among those that explain an episode better, if its total quality is also better.
     fn improve(&mut self, guess: &Guess, episode: usize, deviation: &Deviation<'_>) -> Option<Guess> {
         let level = self.task.recorded[episode].level;
         let columns = self.task.masked.levels[level].level.columns() as u32;
@@ -115,8 +115,8 @@ impl<'a> Search<'a> {
         (best.0 > quality).then_some(best.2)
     }
 
-    /// Returns the quality of a guess over all episodes, and over one of them. Returns `None` if the guess does not
-    /// compile, or does not explain that episode better than the given quality.
+    /// Returns the quality of a guess over all episodes, and its quality on the given episode. Returns `None` if the
+    /// guess does not compile, or does not explain that episode better than the given quality.
     fn quality(&self, guess: &Guess, episode: usize, least: Option<Quality>) -> Option<(Quality, Quality)> {
         let (fit, recorded) = (Fit::new(self.task, guess)?, &self.task.recorded);
         let own = fit.quality(&recorded[episode]);

@@ -89,7 +89,7 @@ fn incompatible_folders_are_rejected() {
         other.levels.iter().map(|level| (level.number, level.text.clone(), None)).collect();
     let other = Subject::read(&other.id, &other.source, &levels, SubjectFacts::default()).unwrap();
     let other = evaluate(&home.path().join("other"), "mcts", vec![other]);
-    check(&[once.clone(), other], "differs from that of an earlier folder");
+    check(&[once.clone(), other], "differs from that in an earlier folder");
     check(&[home.path().join("nowhere")], "contains no evaluation results");
 
     // One episode was not started, and one was interrupted.

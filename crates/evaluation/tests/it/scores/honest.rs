@@ -256,6 +256,6 @@ fn mirrored_twins_are_reported_beside_originals() {
     ];
     for (name, other) in others {
         let error = Study::read(&[own.clone(), folder(name, other)]).expect_err(name).to_string();
-        assert!(error.contains("differs from that of an earlier folder"), "{name}: {error}");
+        assert!(error.contains("differs from that in an earlier folder"), "{name}: {error}");
     }
 }
