@@ -81,8 +81,8 @@ pub enum Divergence {
     },
     /// The final outcome or score differs.
     #[error(
-        "the replay ends {got:?} with score {score}, but the episode records {recorded:?} with score \
-         {recorded_score}"
+        "the replay ends with outcome {got:?} and score {score}, but the episode records outcome {recorded:?} \
+         and score {recorded_score}"
     )]
     End {
         /// The recorded outcome.

@@ -186,7 +186,8 @@ impl Criteria {
             return wrong("ladder", message);
         }
         if self.least_ticks > self.most_ticks {
-            let message = format!("is {}, above `most_ticks`, {}", self.least_ticks, self.most_ticks);
+            let message =
+                format!("is {}, which exceeds `most_ticks` ({})", self.least_ticks, self.most_ticks);
             return wrong("least_ticks", message);
         }
         let rungs = self.rungs("ladder", &self.ladder)?;
@@ -294,7 +295,10 @@ mod tests {
         check(|criteria| criteria.ladder.clear(), "`ladder` takes at least two players");
         check(|criteria| criteria.patience = 0, "`patience` is 0");
         check(|criteria| criteria.gates.drama = 2.0, "`gates.drama` is 2");
-        check(|criteria| criteria.gates.spare = (0.5, 0.2), "`gates.spare` has 0.5 above 0.2");
+        check(
+            |criteria| criteria.gates.spare = (0.5, 0.2),
+            "`gates.spare` has the minimum 0.5 above the maximum 0.2",
+        );
     }
 
     #[test]

@@ -89,7 +89,7 @@ fn of_edge(word: &str) -> Option<&'static str> {
 /// Returns the explanation of a setting in a game's first line.
 pub(crate) fn of_setting(key: &str) -> Option<&'static str> {
     Some(match key {
-        "square_size" => "pixels of a cell",
+        "square_size" => "the width and height of a cell in pixels",
         "key_handler" => "read by the reference engine only: `Pulse` or `Default`",
         "no_players" => "the number of players: 1",
         "no_counters" => "the number of counters, which interactions change by `counter=`",

@@ -242,7 +242,7 @@ fn ladder_results(text: &mut String, ladder: &Ladder) {
     };
     let _ = writeln!(
         text,
-        "       (the planners below play with little thought; people may find it much easier or harder)"
+        "       (the planners below search only a little; people may find the level much easier or harder)"
     );
     let players = ladder.rungs.iter().chain(&ladder.held_out);
     let width = players.clone().map(|result| result.player.len()).max().unwrap_or_default();

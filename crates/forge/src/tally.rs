@@ -251,7 +251,7 @@ impl Tally {
 /// Returns the text for a recorded reason, which is either a criterion name or a short phrase.
 fn words(why: &str) -> String {
     match why {
-        "less than an earlier level" => "easier than the level before".to_owned(),
+        "less than an earlier level" => "easier than an earlier level".to_owned(),
         "second judges" | "further judges" => "failed the re-check".to_owned(),
         criterion if !criterion.contains(' ') => format!("failed `{criterion}`"),
         other => match other.strip_prefix("no level ") {
@@ -261,7 +261,7 @@ fn words(why: &str) -> String {
     }
 }
 
-/// Returns rejections as text, from most to least frequent: `29 easier than the level before, 4 failed the re-check`.
+/// Returns rejections as text, from most to least frequent: `29 easier than an earlier level, 4 failed the re-check`.
 pub fn reasons(rejections: &BTreeMap<String, u64>) -> String {
     let mut told: BTreeMap<String, u64> = BTreeMap::new();
     for (why, count) in rejections {
@@ -289,7 +289,7 @@ mod tests {
         ];
         let rejections = counts.map(|(why, count)| (why.to_owned(), count)).into();
         let expect =
-            "29 easier than the level before, 4 failed the re-check, 2 failed `winnable`, 2 without level 0";
+            "29 easier than an earlier level, 4 failed the re-check, 2 failed `winnable`, 2 without level 0";
         assert_eq!(reasons(&rejections), expect);
     }
 

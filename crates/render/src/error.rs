@@ -22,7 +22,7 @@ pub enum RenderError {
     #[error("an image without pixels cannot be written")]
     Empty,
     /// An animation frame differs in size from the first frame.
-    #[error("a frame of {width} × {height} pixels does not fit an animation of a different size")]
+    #[error("a frame has {width} × {height} pixels, but the animation has a different size")]
     Frame {
         /// The width of the frame in pixels.
         width: u32,

@@ -169,7 +169,7 @@ pub enum SnapshotError {
         more: usize,
     },
     /// A file changed between two accesses.
-    #[error("`{}` changed while it was read: stop other programs from writing there, and try again", .0.in_message())]
+    #[error("`{}` changed while it was being read: stop other programs from writing there, and try again", .0.in_message())]
     Changed(PathBuf),
     /// A path is too long for a tar header.
     #[error("the path `{0}` is too long for an archive: distribute the folder instead")]

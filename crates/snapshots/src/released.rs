@@ -86,7 +86,7 @@ pub enum ReleasedError {
     #[error("{} does not verify: {}", .0.name, .0.problems.first().map_or("", String::as_str))]
     Unsound(Box<Verification>),
     /// A file changed between verification and reading.
-    #[error("`{0}` changed while it was read: try again")]
+    #[error("`{0}` changed while it was being read: try again")]
     Changed(String),
 }
 

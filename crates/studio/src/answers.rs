@@ -88,7 +88,9 @@ impl Serving {
 
 /// Returns the response for work that panicked because of a bug in this program.
 fn broken() -> Response {
-    Refusal::failed("the studio could not do this").help("please report it, with the game").into_response()
+    Refusal::failed("the studio failed because of a bug")
+        .help("please report the bug, and include the game")
+        .into_response()
 }
 
 /// Returns the route for a request without a body.

@@ -132,7 +132,7 @@ pub(crate) fn remove(file: &Path) -> Result<(), Refusal> {
 
 fn unreadable(path: &Path, error: &io::Error) -> Refusal {
     match error.kind() {
-        ErrorKind::NotFound => Refusal::missing(format_args!("{} is gone", shown(path))),
+        ErrorKind::NotFound => Refusal::missing(format_args!("{} no longer exists", shown(path))),
         ErrorKind::InvalidInput | ErrorKind::IsADirectory => {
             Refusal::bad(format_args!("{} is not a file", shown(path))).help("replace it with a file")
         }

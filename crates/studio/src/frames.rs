@@ -264,7 +264,7 @@ pub(crate) fn action(name: &str) -> Result<Action, Refusal> {
     let ours = || Action::ALL.into_iter().find(|action| action.name() == name);
     Action::from_reference(name).or_else(ours).ok_or_else(|| {
         let names: Vec<String> = Action::ALL.into_iter().map(action_name).collect();
-        Refusal::bad("there is no such action").help(format_args!("there are {}", names.join(", ")))
+        Refusal::bad("there is no such action").help(format_args!("the actions are {}", names.join(", ")))
     })
 }
 

@@ -77,7 +77,7 @@ impl<'a> Gallery<'a> {
     pub fn game(&self, id: &str) -> Result<(String, Vec<u8>), GalleryError> {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
         if id.is_empty() || !id.chars().all(plain) || id == "release" {
-            return Err(GalleryError("the id of a game cannot be used as a file name".to_owned()));
+            return Err(GalleryError("the game's ID cannot be used as a file name".to_owned()));
         }
         let entry = self.0.workspace.game(id)?;
         let mut document = game_of(self.0, id)?;

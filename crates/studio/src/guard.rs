@@ -112,5 +112,5 @@ pub(crate) async fn check(State(guard): State<Guard>, request: Request, next: Ne
 
 /// Rejects a method that the path does not support.
 pub(crate) async fn no_method() -> Response {
-    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this path does not support the method").into_response()
+    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this path does not support this method").into_response()
 }

@@ -94,7 +94,7 @@ impl Session {
         let Budget(calls) = spec.budget().unwrap_or(Budget(USUAL_CALLS));
         if calls > MOST_CALLS {
             return Err(Refusal::bad(format_args!(
-                "the limit in the studio is {MOST_CALLS} calls per decision"
+                "the studio allows at most {MOST_CALLS} calls per decision"
             )));
         }
         let known = self.planner.take().filter(|(known, _)| known == spec.name());

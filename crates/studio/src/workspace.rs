@@ -205,7 +205,7 @@ impl GameEntry {
                     files::check_folder(folder)?;
                     files::level_path(folder, source, number)
                 }
-                None => Err(unknown(&format!("there are {source} and lvl0.txt, lvl1.txt …"))),
+                None => Err(unknown(&format!("the game's files are {source} and lvl0.txt, lvl1.txt …"))),
             },
             Place::File { file, .. } if file.file_name().is_some_and(|own| own == name) => Ok(file.clone()),
             Place::File { .. } => Err(unknown(

@@ -33,7 +33,7 @@ pub fn generate(password: Option<&str>) -> Result<NewKey, TrustError> {
         Some(password) => KeyPair::generate_encrypted_keypair(Some(password.to_owned())),
         None => KeyPair::generate_unencrypted_keypair(),
     };
-    let failed = |error: minisign::PError| TrustError::Key(format!("no key was made: {error}"));
+    let failed = |error: minisign::PError| TrustError::Key(format!("the key could not be created: {error}"));
     let KeyPair { pk, sk } = pair.map_err(failed)?;
     let public = PublicKey(pk);
     let kind = if password.is_some() { "encrypted" } else { "unencrypted" };

@@ -301,7 +301,7 @@ impl Signatures {
                 let found = newest.signers(&message, self.of(file));
                 if (found.names.len() as u32) < newest.threshold {
                     problems.push(format!(
-                        "{file}: signed by {} of the newest set of keys, {}, but {} must sign: sign it again \
+                        "{file}: signed by {} of the newest set of keys ({}), but {} must sign: sign it again \
                          under that set",
                         found.listed(),
                         newest.version,

@@ -34,7 +34,7 @@ impl Header {
                 }
                 ("no_counters", Value::Int(count @ 0..=MAX_COUNTERS)) => header.counters = count as usize,
                 ("no_counters", Value::Int(_)) => {
-                    let message = format!("a game has between 0 and {MAX_COUNTERS} counters");
+                    let message = format!("`no_counters` must be a number between 0 and {MAX_COUNTERS}");
                     problems.push(unsupported(param, message));
                 }
                 ("no_players", Value::Int(1)) => {}

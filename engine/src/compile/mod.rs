@@ -329,7 +329,7 @@ fn report_missing_images(
 /// one.
 pub(crate) fn missing_image(name: &str, span: Span) -> Diagnostic {
     let message =
-        format!("`{name}` has no image that its tiling could choose: the reference engine crashes on it");
+        format!("`{name}` has no image that its tiling could choose, so the reference engine crashes");
     let problem = Diagnostic::error("missing-image", span, message);
     problem.help("add `img=` and the name of an image, or remove `autotiling` and `randomtiling`")
 }

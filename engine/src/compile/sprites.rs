@@ -156,7 +156,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
         match (&line.class, inherited) {
             (Some(own), Some((class, parent))) if line.children.is_empty() => {
                 let message = match own.text == class.text {
-                    true => format!("`{name}` is a subtype of `{parent}`, and so inherits its class"),
+                    true => format!("`{name}` is a subtype of `{parent}`, so it inherits that type's class"),
                     false => {
                         let (class, own) = (&class.text, &own.text);
                         format!("`{name}` is a subtype of `{parent}`: its class is {class}, not {own}")
@@ -166,7 +166,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
                     true => Diagnostic::error("ignored-class", own.span, message),
                     false => Diagnostic::warning("ignored-class", own.span, message),
                 };
-                let help = "remove the class; or, to make it a type of its own, indent the line less, like";
+                let help = "remove the class; to make it a separate type instead, indent the line less, like";
                 let problem = problem.help(format!("{help} `{parent}`"));
                 problems.push(match own.text == class.text {
                     true => problem.remove(own.span, &own.text),
@@ -179,7 +179,7 @@ fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mu
                     _ => format!("neither `{name}` nor its subtypes have a class"),
                 };
                 let problem = Diagnostic::error("no-class", line.name.span, message);
-                let help = "write it after the `>`: Immovable, Missile, MovingAvatar …; or indent the line below a parent";
+                let help = "write a class after the `>`, such as Immovable, Missile or MovingAvatar, or indent the line below a parent";
                 problems.push(problem.help(help));
                 continue;
             }
@@ -271,7 +271,7 @@ fn type_info<'a>(
         if !(factor > 0.0 && factor <= f64::from(MAX_REACH)) {
             let given = sprite.params.iter().find(|param| param.key.text == key);
             let span = given.map(|param| param.value.span).unwrap_or_default();
-            let message = format!("`{key}` must be a number of cells above 0 and up to {}", MAX_REACH);
+            let message = format!("`{key}` must be a number of cells above 0 and at most {}", MAX_REACH);
             let problem = Diagnostic::error("bad-parameter", span, message);
             let problem = problem.help(format!("leave it out to get `{key}=1`"));
             problems.push(match given {

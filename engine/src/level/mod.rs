@@ -279,7 +279,10 @@ impl LevelReader<'_> {
             // Mark the part that is cut off, or the whole row if it is too short.
             let (from, help) = match line.char_indices().nth(columns) {
                 Some((from, _)) => (from, "the rest is cut off: shorten this row, or lengthen the first row"),
-                None => (0, "missing cells count as spaces: extend the row, with spaces if intended"),
+                None => (
+                    0,
+                    "missing cells count as spaces: lengthen the row, or pad it with spaces if that is intended",
+                ),
             };
             let span = Span::new(start + from, start + line.len());
             let problem = Diagnostic::warning("ragged-level", span, message).help(help);
@@ -319,7 +322,7 @@ impl LevelReader<'_> {
                 (None, &[unused], _) if kinds == 1 && count > 1 => (
                     Some(unused),
                     format!(
-                        "did you mean `{unused}`, which this level never uses? or is `{shown}` meant in the LevelMapping?"
+                        "did you mean `{unused}`, which this level never uses, or should the LevelMapping use `{shown}` instead?"
                     ),
                 ),
                 (None, _, Some(near)) => {

@@ -139,7 +139,8 @@ fn in_words(line: &InteractionLine) -> String {
 pub(super) fn swapped_rule_warning(game: &Game) -> Option<(Diagnostic, Game)> {
     let found = swapped_rule(game, |game| Analysis::of(game).can_win())?;
     let SwappedRule { line, span, repaired } = found;
-    let message = "the game cannot be won with this rule as it stands, and may be won with its sides swapped";
+    let message =
+        "the game cannot be won with this rule as it stands, but may be winnable with its sides swapped";
     let meant: Vec<String> = repaired.iter().map(|line| format!("`{line}`")).collect();
     let help = format!("did you mean {}?", meant.join(" and "));
     let written = &game.description().interactions[line];

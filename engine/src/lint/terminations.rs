@@ -308,7 +308,7 @@ impl Linter<'_> {
             let line = &lines[encounter.line];
             let partners: Vec<&str> = line.second.iter().map(|word| word.text.as_str()).collect();
             let rule = format!("{} {} > {}", line.first.text, partners.join(" "), line.effect.text);
-            let asks = format!("`{rule}` needs {needed} `{name}`, and");
+            let asks = format!("`{rule}` needs {needed} `{name}`, but");
             if info.traits.is_resource {
                 let help = format!("raise the `limit=` of `{name}` to {needed}, or require fewer");
                 return Some((format!("{asks} no sprite can hold more than {limit}"), help));

@@ -79,6 +79,6 @@ fn is_named(game: &Game, wall: SpriteType) -> bool {
 
 fn warning(game: &Game, wall: SpriteType, avatar: SpriteType, span: Span) -> Diagnostic {
     let (wall, avatar) = (game.name(wall), game.name(avatar));
-    let message = format!("`{wall}` does not stop `{avatar}`: no rule is about the two");
+    let message = format!("`{wall}` does not stop `{avatar}`: no rule applies to the two");
     Diagnostic::warning("open-wall", span, message).help(format!("add `{avatar} {wall} > stepBack`"))
 }

@@ -108,7 +108,7 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "enemy enemies monster ghost villain foe hostile npc mob creature animal opponent alien zombie movingenemy movingnpc",
         &[],
-        "use `RandomNPC`, which wanders, `Chaser`, which hunts what its `stype=` names, or `Missile`, which flies straight on",
+        "use `RandomNPC`, which wanders, `Chaser`, which hunts the sprite that its `stype=` names, or `Missile`, which flies straight on",
     ),
     means(
         "astarchaser smartchaser pathfinder pathfinding",
@@ -153,7 +153,7 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "explosion temporary effect flash spark",
         &["Flicker"],
-        "use `Flicker`, which is gone after a few ticks",
+        "use `Flicker`, which disappears after a few ticks",
     ),
     means(
         "fire virus spreading mold mould",
@@ -165,7 +165,7 @@ pub(super) const CLASSES: &[Meaning] = &[
     means(
         "platform elevator lift movingplatform",
         &[],
-        "use `Missile` for one that moves, or `Immovable`; `pullWithIt` takes a sprite along",
+        "use `Missile` if it moves, or `Immovable` if it does not; the effect `pullWithIt` takes a sprite along",
     ),
     means(
         "orientedsprite",

@@ -59,7 +59,7 @@ pub(super) const SPRITE_PARAMETERS: &[Meaning] = &[
     means(
         "visible show shown",
         &[],
-        "remove the parameter, or write `invisible=True` to hide the sprite from the player's eyes",
+        "remove the parameter, or write `invisible=True` to hide the sprite from the player",
     ),
     means(
         "points point score scorechange reward worth",

@@ -34,7 +34,7 @@ pub(super) const EFFECTS: &[Meaning] = &[
     means(
         "push pushes shove move pushbox pushforward pushsprite moveforward pushblock pushobject pushaway moveable kick",
         &["bounceForward"],
-        "use `bounceForward`, by which the partner pushes the first sprite",
+        "use `bounceForward`, with which the partner pushes the first sprite",
     ),
     means(
         "block blocks blocked stop stops stopmovement blockmovement preventmovement nomove solid wall collide collision stopsprite goback \
@@ -83,7 +83,7 @@ pub(super) const EFFECTS: &[Meaning] = &[
     means(
         "open opens unlock opendoor unlockdoor usekey openwithkey openifhaskey unlockifhaskey killifhaskey",
         &[],
-        "use `killIfOtherHasMore resource=key limit=1`, which removes a door that its partner holds a key to",
+        "use `killIfOtherHasMore resource=key limit=1`, which removes a door if its partner holds the key",
     ),
     means(
         "spawnsprite create generate produce spawnobject createsprite spawnat makesprite addsprite",
@@ -110,12 +110,12 @@ pub(super) const EFFECTS: &[Meaning] = &[
     means(
         "pull carry attach ride drag movewith stick",
         &["pullWithIt"],
-        "use `pullWithIt`, by which the partner takes the first sprite along",
+        "use `pullWithIt`, with which the partner takes the first sprite along",
     ),
     means(
         "conveysprite convey",
         &[],
-        "use `attractGaze`, by which a belt turns what moves on it, or `pullWithIt`, by which a moving sprite takes another along",
+        "use `attractGaze`, with which a belt turns the sprites that move on it, or `pullWithIt`, with which a moving sprite takes another along",
     ),
     means(
         "windgust slipforward slide slip",

@@ -15,8 +15,11 @@ use crate::syntax::parse::sections;
 /// Returns the description as the reference uses it, or the fault on which the reference crashes.
 pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
     if let Some(span) = layout::bare_hashes(source) {
-        let problem =
-            Diagnostic::error("bare-comment", span, "a line of nothing but `#` in the first column");
+        let problem = Diagnostic::error(
+            "bare-comment",
+            span,
+            "a line that contains nothing but `#`, in the first column",
+        );
         return Err(problem.help("the reference engine crashes on such a line; add a space or a word"));
     }
     let (lines, _) = layout::lines(source);

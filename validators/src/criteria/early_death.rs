@@ -46,7 +46,7 @@ struct Survival {
     calls: u64,
 }
 
-pub(crate) const QUESTION: &str = "can the player live through the first ticks?";
+pub(crate) const QUESTION: &str = "can the player survive the first ticks?";
 
 pub(crate) fn judge(setting: &Setting<'_>) -> NoEarlyDeath {
     let criteria = setting.criteria;
@@ -113,7 +113,7 @@ impl NoEarlyDeath {
         let interval = statistics::wilson(doomed, seeds, statistics::Z95);
         let (low, high) = (100.0 * interval.low, 100.0 * interval.high);
         format!(
-            "with {doomed} of {seeds} random seeds no sequence of actions survives the first {} ticks (95%: \
+            "with {doomed} of {seeds} random seeds, no sequence of actions survives the first {} ticks (95%: \
              {low:.0} to {high:.0}%)",
             self.ticks
         )

@@ -42,7 +42,7 @@ impl Validator for Readable {
                 faults.push(Evidence { text, ..seen }.advise("remove `hidden=True`"));
             } else {
                 notes
-                    .push(Evidence { text: format!("`{name}` is hidden, and spawns other sprites"), ..seen });
+                    .push(Evidence { text: format!("`{name}` is hidden, but spawns other sprites"), ..seen });
             }
         }
         faults.extend(covered(analysis, level));

@@ -51,7 +51,8 @@ impl GameValidator for RuleUse {
             let rule = Line::interaction(game, line);
             let written = &game.description().interactions[line];
             if written.second.iter().any(|word| word.text == EDGE) || written.first.text == EDGE {
-                let text = format!("`{}` never runs; the rule may be a guard at the edge", rule.text);
+                let text =
+                    format!("`{}` never runs; the rule may only guard the edge of the board", rule.text);
                 guards.push(Evidence::new(text).of_rule(rule));
                 continue;
             }

@@ -199,7 +199,7 @@ impl SkillPays {
         let (mut pays, mut unsure) = (interval.low > 0.0 && more >= self.wins, more >= self.wins);
         let mut leads = more >= self.wins;
         if range <= 0.0 {
-            text.push_str(", and all score alike");
+            text.push_str(", and all players score the same");
         } else {
             let gains: Vec<f64> = plays
                 .iter()

@@ -73,7 +73,7 @@ impl GameValidator for SkillOverall {
         let evidence = sides.iter().map(|total| {
             let interval = total.difference_to(&baseline);
             Evidence::new(format!(
-                "on all levels {} wins {} of {}, {} {} of {} (95%: {:+.0} to {:+.0} points)",
+                "over all levels, {} wins {} of {}, {} {} of {} (95%: {:+.0} to {:+.0} points)",
                 total.player,
                 total.wins,
                 total.plays,
@@ -92,7 +92,7 @@ impl GameValidator for SkillOverall {
         } else {
             Verdict::fail(format!(
                 "playing well pays too little over all levels: {:+.0} points at the lower end of the \
-                 interval, {:.0} required",
+                 interval (at least {:.0} required)",
                 100.0 * least,
                 100.0 * self.wins
             ))

@@ -34,7 +34,7 @@ impl Validator for WellFormed {
             let swapped = told.and_then(|warning| swapped(game, warning));
             let reason = match (&swapped, told) {
                 (Some(rule), _) => format!(
-                    "the game cannot be won with `{}` as it stands, and may be won with the two sides swapped",
+                    "the game cannot be won with `{}` as it stands, but may be winnable with the two sides swapped",
                     rule.text
                 ),
                 (None, Some(warning)) => warning.message.clone(),

@@ -125,7 +125,7 @@ fn nearest_to_a_win(
     let tick = Some(actions.len()).filter(|&tick| tick > 0);
     let rule = Some(Line::termination(game, goal.line));
     let board = Some(Board::of(game, &state));
-    let text = format!("the closest reachable state to a win: {text}");
+    let text = format!("the reachable state closest to a win: {text}");
     Some(
         Evidence { text, tick, rule, board, ..Evidence::default() }
             .advise("make a win possible from this state, or place more of the required sprites"),

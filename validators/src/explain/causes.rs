@@ -32,7 +32,7 @@ pub(crate) fn explain(case: Case<'_>, finding: &mut Finding) {
             level.is_ok_and(|level| Analysis::of(game).reach(&level).can_win())
         };
         evidence.extend(swapped_rule(game, wins).map(|swapped| {
-            let text = "with its two sides swapped, this rule may let the level be won";
+            let text = "with the two sides of this rule swapped, the level may be winnable";
             let meant: Vec<String> = swapped.repaired.iter().map(|line| format!("`{line}`")).collect();
             let rule = Line::interaction(game, swapped.line);
             Evidence::new(text).of_rule(rule).advise(format!("did you mean {}?", meant.join(" and ")))
@@ -200,7 +200,7 @@ impl Explanation<'_> {
                 obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
             }
             Missing::Inside => {
-                let text = format!("this {} never gets to the edge of the screen", self.name(*target));
+                let text = format!("this {} never reaches the edge of the screen", self.name(*target));
                 self.links.push(
                     Evidence { rule, ..Evidence::new(text) }.advise("open a path to the edge of the screen"),
                 );
@@ -279,7 +279,7 @@ impl Explanation<'_> {
             let again = obstacles.is_empty();
             let text = format!("{} {name} is in the way", if again { "that" } else { "the" });
             let link = Evidence { cell: Some(self.place(*cell)), ..Evidence::new(text) };
-            let advice = format!("make what opens the {name} reachable without passing it");
+            let advice = format!("make whatever opens the {name} reachable without passing it");
             self.links.push(if again { link.advise(advice) } else { link });
             obstacles.iter().for_each(|obstacle| self.obstacle(obstacle));
         }

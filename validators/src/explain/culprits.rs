@@ -180,7 +180,7 @@ impl Trials<'_> {
         let rules = (0..game.description().interactions.len()).map(|line| {
             let rule = Line::interaction(game, line);
             let how = format!("without `{}`", rule.text);
-            let advice = format!("change `{}`, or the sprites in the level on which it acts", rule.text);
+            let advice = format!("change `{}`, or the sprites that it acts on in the level", rule.text);
             (Some(line), Changed { game: game.without(line), line: rule, how, advice })
         });
         let losing = analysis.goals().iter().filter(|goal| !goal.win);
@@ -271,7 +271,7 @@ impl Trials<'_> {
             let changed = Game::compile(&description).ok()?;
             let how = format!("with `speed={CARRYING_SPEED}` for `{name}`");
             let advice = format!(
-                "add `speed={CARRYING_SPEED}` to `{name}`: with a speed of 1 or more it has left the cell before `pullWithIt` can take its rider along"
+                "add `speed={CARRYING_SPEED}` to `{name}`: at a speed of 1 or more, it leaves the cell before `pullWithIt` can take its rider along"
             );
             Some(Changed { game: changed, line: Line::sprite(game, name)?, how, advice })
         };
@@ -372,10 +372,10 @@ impl Trials<'_> {
             let partner =
                 second.map_or("the edge of the screen".to_owned(), |second| format!("`{}`", name(second)));
             let beside = match others.first() {
-                Some(other) => format!(", where a `{other}` is, too"),
+                Some(other) => format!(", where there is also a `{other}`"),
                 None => String::new(),
             };
-            let text = format!("in that win the rule would act on `{}` and {partner}{beside}", name(first));
+            let text = format!("in that win, the rule would act on `{}` and {partner}{beside}", name(first));
             let cell = place.map(|(column, row)| (column + 1, row + 1));
             return (Some(Evidence { tick: Some(tick + 1), cell, ..Evidence::new(text) }), others);
         }

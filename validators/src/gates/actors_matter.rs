@@ -72,7 +72,7 @@ impl GameValidator for ActorsMatter {
         }
         let swept = sweeps.iter().sum::<f64>() / sweeps.len().max(1) as f64;
         let text = format!(
-            "sprites that move by themselves sweep {swept:.1} cells on average over {} sprites, {} required",
+            "sprites that move by themselves sweep {swept:.1} cells on average over {} sprites (at least {} required)",
             sweeps.len(),
             gates.sweep
         );
@@ -85,7 +85,7 @@ impl GameValidator for ActorsMatter {
         if actors.deadly && case.analysis.aims().avatar_must_live && losses > 0 {
             let share = f64::from(theirs) / f64::from(losses);
             let text = format!(
-                "foes cause {theirs} of {losses} losses of careless players, {:.0}% required",
+                "foes cause {theirs} of {losses} losses of careless players (at least {:.0}% required)",
                 100.0 * gates.foe_losses
             );
             if share < gates.foe_losses { &mut problems } else { &mut notes }.push(Evidence::new(text));

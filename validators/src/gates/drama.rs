@@ -29,7 +29,10 @@ impl GameValidator for Drama {
             return without_subject(NO_WIN);
         };
         let (drama, least) = (play.drama, self.0.drama);
-        let text = format!("drama is {drama:.2} on average over {} levels, {least:.2} required", play.levels);
+        let text = format!(
+            "drama is {drama:.2} on average over {} levels (at least {least:.2} required)",
+            play.levels
+        );
         let note =
             Evidence::new(text).advise("add danger on the way to the goal, or costs that can ruin a win");
         measured(drama >= least, note, drama)

@@ -184,7 +184,10 @@ impl Necessity {
             _ => "no test shows that winning depends on",
         };
         let (text, all) = (&element.text, on.len());
-        (need, format!("{start} `{text}`: it matters on {count} of {all} levels, {wanted} required"))
+        (
+            need,
+            format!("{start} `{text}`: it matters on {count} of {all} levels (at least {wanted} required)"),
+        )
     }
 
     /// Returns `true` if replays show that the element matters on a level.

@@ -42,7 +42,7 @@ impl GameValidator for NoDeadTime {
             let most = ((ticks as f64 * self.0.dead_share) as usize).max(self.0.dead_ticks);
             worst = worst.max(dead as f64 / ticks.max(1) as f64);
             let text = format!(
-                "level {}: {dead} of the {ticks} ticks of a win make no progress, {most} allowed",
+                "level {}: {dead} of the {ticks} ticks of a win make no progress (at most {most} allowed)",
                 won.number
             );
             let seen = Evidence { tick: Some(from + 1), ..Evidence::new(text) };

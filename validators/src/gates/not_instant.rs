@@ -69,8 +69,8 @@ impl GameValidator for NotInstant {
             let factor = f64::from(limit) / longest.max(1) as f64;
             let (least, most) = gates.time_limit;
             let text = format!(
-                "the time limit of {limit} ticks is {factor:.1} times the longest win of {longest}, {least} \
-                 to {most} times required"
+                "the time limit of {limit} ticks is {factor:.1} times the longest win of {longest} ({least} \
+                 to {most} times required)"
             );
             match factor < least || factor > most {
                 true => problems
@@ -123,7 +123,7 @@ impl NotInstant {
         if let Some((stype, period)) = slowest.filter(|(_, period)| (ticks as f64) < spawn_periods * period) {
             let name = game.name(*stype);
             let text = format!(
-                "level {number} is won in {}, before {spawn_periods} periods of `{name}`, {period:.0} ticks each",
+                "level {number} is won in {}, before {spawn_periods} periods of `{name}` ({period:.0} ticks each)",
                 base::count(ticks, "tick")
             );
             let rule = Line::sprite(game, name);

@@ -55,7 +55,7 @@ impl GameValidator for OpenGround {
         let (mean, most) = (shares.iter().sum::<f64>() / shares.len() as f64, self.0.narrow);
         let each: Vec<String> = shares.iter().map(|share| format!("{:.0}", 100.0 * share)).collect();
         let text = format!(
-            "{:.0}% of the ground is narrow on average ({}), {:.0}% allowed",
+            "{:.0}% of the ground is narrow on average ({}; at most {:.0}% allowed)",
             100.0 * mean,
             each.join(", "),
             100.0 * most

@@ -130,7 +130,8 @@ impl Gates {
             count.map(|(key, count, most)| (key, format!("is {count}; the value must be from 1 to {most}")));
         let pairs = [("gates.time_limit", self.time_limit), ("gates.spare", self.spare)];
         let pair = pairs.into_iter().find(|(_, (least, most))| least > most);
-        let pair = pair.map(|(key, (least, most))| (key, format!("has {least} above {most}")));
+        let pair = pair
+            .map(|(key, (least, most))| (key, format!("has the minimum {least} above the maximum {most}")));
         share.or(factor).or(count).or(pair)
     }
 }

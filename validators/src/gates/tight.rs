@@ -46,7 +46,7 @@ impl GameValidator for Tight {
         if !spares.is_empty() {
             let (spare, (least, most)) = (mean(&spares), gates.spare);
             let text = format!(
-                "a win leaves {:.0}% of the consumables on average, {:.0} to {:.0}% required",
+                "a win leaves {:.0}% of the consumables on average ({:.0} to {:.0}% required)",
                 100.0 * spare,
                 100.0 * least,
                 100.0 * most
@@ -60,7 +60,7 @@ impl GameValidator for Tight {
             won = shares(&|won| case.careless.closer_win_share(*won, gates));
         }
         let text = format!(
-            "careless players win {:.0}% of their episodes, {:.0}% allowed",
+            "careless players win {:.0}% of their episodes (at most {:.0}% allowed)",
             100.0 * won,
             100.0 * gates.careless_wins
         );

@@ -186,7 +186,7 @@ fn a_sealed_month_waits_for_its_beacon() {
     let forks =
         ["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "dice.json", "other.json"];
     beacon(folder, "dice.json", "dice", 1, &"ef".repeat(32));
-    says(folder, &forks, 0, "round 1 of dice, as the log states it");
+    says(folder, &forks, 0, "round 1 of dice, as stated in the log");
     beacon(folder, "third.json", "dice", 2, &"01".repeat(32));
     run(folder, &["trust", "log", "append", "copy", "--secret", "log.key", "--beacon", "third.json"], 0);
     says(folder, &rolled, 1, "the log has forked: its first 4 entries differ from the entries seen before");

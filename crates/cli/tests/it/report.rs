@@ -411,7 +411,7 @@ fn unfinished_episodes_are_reported() {
     assert_eq!(cut["players"][0]["broken_off"]["interrupted"], 1);
     assert!(cut["notes"].to_string().contains("1 of 4 episodes were aborted"), "{}", cut["notes"]);
     let page = fs::read_to_string(home.path().join("report/report.md")).unwrap();
-    assert!(page.contains("Left out of every number: 1 interrupted and not finished"), "{page}");
+    assert!(page.contains("Excluded from all figures: 1 interrupted and not finished"), "{page}");
 }
 
 /// Names are treated as plain text in every file of a report, and the page runs only its own script.

@@ -29,7 +29,7 @@ pub enum LevelsError {
     #[error(transparent)]
     Generate(#[from] GenerateError),
     /// The criteria are invalid.
-    #[error("the criteria: {0}")]
+    #[error("the criteria are invalid: {0}")]
     Criteria(#[from] CriteriaError),
     /// No candidate passed all judges.
     #[error("no level was accepted ({looks} inspected, {judged} judged): {why}{}", .hint.as_ref().map_or(String::new(), |hint| format!("; {hint}")))]
@@ -53,8 +53,8 @@ fn hint(tally: &Tally) -> Option<String> {
     if tally.unbeaten > 0 && Some(&tally.unbeaten) >= tally.rejections.get(DIFFICULTY) {
         let unbeaten = tally.unbeaten;
         return Some(format!(
-            "no planner on the ladder wins any of the {unbeaten} levels that met all other criteria, and \
-             difficulty is measured by these planners: do not request a difficulty, or make the game easier \
+            "no planner on the ladder wins any of the {unbeaten} levels that met all other criteria, but \
+             difficulty is measured with these planners: do not request a difficulty, or make the game easier \
              for them"
         ));
     }

@@ -20,10 +20,10 @@ const NO_CLOCK: &str = "no time limit";
 impl<'a> Trial<'a> {
     pub(super) const TIME_LIMIT: Stage<Self> = Stage {
         name: "time limit",
-        purpose: "judges the levels again without a time limit if careless episodes end by the rules, \
+        purpose: "judges the levels again without a time limit if the rules end careless episodes, \
                   then with the first round limit beyond 2.5 times the longest win; each version goes \
                   through the later stages until a version passes",
-        cost: "a second, because wins are replayed and not searched",
+        cost: "a second, because wins are replayed, not searched for",
         reasons: &["time limit"],
         ..Stage::versions(Self::limit_time)
     };

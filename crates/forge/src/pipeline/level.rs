@@ -54,16 +54,16 @@ impl LevelTrial<'_> {
 
     pub(super) const NEW_BOARD: Stage<Self> = Stage {
         name: "new board",
-        purpose: "in a course, rejects a board that differs from another level's board, mirrored, turned \
-                  or shifted, in only a few cells",
+        purpose: "in a course, rejects a board that differs in only a few cells from another level's board, \
+                  even if that board is mirrored, turned or shifted",
         reasons: &["like another level"],
         ..Stage::once(Self::refuse_same_board)
     };
 
     pub(super) const OPEN_GROUND: Stage<Self> = Stage {
         name: "open ground",
-        purpose: "in a course, rejects so much narrow ground that the game would fail even if no other \
-                  level had narrow ground",
+        purpose: "in a course, rejects a level with so much narrow ground that the game would fail even \
+                  if no other level had any",
         criteria: CriterionSet::of(&[Criterion::OpenGround]),
         ..Stage::once(Self::refuse_narrow_ground)
     };

@@ -32,7 +32,7 @@ impl Trial<'_> {
 
     pub(super) const FURTHER_JUDGES: Stage<Self> = Stage {
         name: FURTHER_JUDGES,
-        purpose: "repeats the gates with ten other seeds (three in a release), each knowing one win of each level",
+        purpose: "repeats the gates with ten other seeds (three in a release), given one win of each level",
         cost: "seconds for each seed",
         reasons: &[FURTHER_JUDGES],
         ..Stage::once(Self::ask_further_judges)

@@ -107,8 +107,8 @@ impl RequestTrial<'_> {
 
     pub(super) const DIFFICULTY: Stage<Self> = Stage {
         name: DIFFICULTY,
-        purpose: "measures the difficulty with two ladders, the second three times as long, if the order \
-                  requests a difficulty",
+        purpose: "if the order requests a difficulty, measures it with two ladders, the second three times \
+                  as long",
         cost: "more than the other stages",
         reasons: &[DIFFICULTY],
         ..Stage::once(Self::measure_difficulty)

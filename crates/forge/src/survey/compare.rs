@@ -169,7 +169,7 @@ impl Comparison {
     /// Returns the comparison as a table, with a note on the omitted games.
     pub fn table(&self) -> Table {
         let level = self.lines.iter().filter(|line| line.level == Some(true)).count();
-        let mut note = format!("At least level on {level} of {} lines.", self.lines.len());
+        let mut note = format!("At least equal on {level} of {} lines.", self.lines.len());
         for (side, of) in
             [("ours", (|line| &line.ours) as fn(&Line) -> &Group), ("theirs", |line| &line.theirs)]
         {
@@ -179,7 +179,7 @@ impl Comparison {
                 }
             }
         }
-        let columns = ["Line", "Ours", "Theirs", "Difference (95%)", "Points", "At least level"];
+        let columns = ["Line", "Ours", "Theirs", "Difference (95%)", "Points", "At least equal"];
         let mut table = Table::new("side-by-side", "Side by side", &note, &columns);
         for line in &self.lines {
             let measure = if line.unit == Unit::Share { "share" } else { "mean" };

@@ -29,8 +29,9 @@ impl Well {
             ("unseen at 0.3", &|month| TableCell::number(month.unseen_near, 2)),
             ("unseen at 0.4", &|month| TableCell::number(month.unseen_far, 2)),
         ];
-        let note = "Minimum, 5%, median: the distance of the month's games to the nearest earlier game. \
-                    Near: rejected. Unseen: fraction of all rules up to the month.";
+        let note = "Least, 5%, median: the distance from the month's games to the nearest earlier game. \
+                    Near: rejected. Unseen: the estimated probability that the next rules are at least \
+                    this far from all rules drawn up to the month.";
         Table::of("well-rules", "Rules of each month", note, &self.months, columns)
     }
 
@@ -50,8 +51,9 @@ impl Well {
         let last = self.months.last();
         let named = |top: Option<&Top>| top.map_or("none", |top| top.name.as_str()).to_owned();
         let note = format!(
-            "Fractions of all games up to the month. At the end, the top mechanic is {}, the top ending \
-             {} and the top pair {}. Again: used by another game within twelve months.",
+            "Unseen: the estimated probability that the next pair or mechanic is new. Top: the fraction of all \
+             games up to the month. At the end, the top mechanic is {}, the top ending {} and the top pair {}. \
+             Again: used by another game within twelve months.",
             named(last.and_then(|month| month.top_mechanic.as_ref())),
             named(last.and_then(|month| month.top_ending.as_ref())),
             named(last.and_then(|month| month.top_coupling.as_ref())),

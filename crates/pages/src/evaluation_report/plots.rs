@@ -218,7 +218,9 @@ pub(super) fn win_rates(study: &Study) -> Plot {
     Plot {
         head: "Win rates".to_owned(),
         svg: forest("win rates with Wilson intervals", &rows),
-        caption: "95% intervals for games like these; of one game, for exactly its levels.".to_owned(),
+        caption: "The intervals are 95% intervals for games like these or, for a single game, for exactly \
+                  its levels."
+            .to_owned(),
     }
 }
 

@@ -88,8 +88,9 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut pairs = Section::new(
         "pairs",
         "Players against each other",
-        "Every pair on the levels that both played. With few episodes on a level, hardly any difference can \
-         be significant: the last table of this section shows which differences could be detected.",
+        "Each pair of players is compared on the levels that both played. With few episodes on a level, \
+         hardly any difference can be significant: the last table of this section shows which differences \
+         could be detected.",
     );
     pairs.tables = of(&["pairs-overall", "pairs-by-game", "pairs-by-level", "power"]);
 
@@ -133,7 +134,7 @@ fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     let mean = known.iter().sum::<f64>() / known.len() as f64;
     let cell = |column: &Column| match column.name.as_str() {
         "player" => format!(
-            "shortest wins, proved on {} of {}",
+            "shortest wins, proven minimal on {} of {}",
             known.len(),
             words::many(levels.len() as u64, "level")
         ),

@@ -36,7 +36,7 @@ impl Told {
         counted.extend(citation(evaluations));
         counted.extend(answers(study));
         counted.push(
-            "Intervals are 95% intervals. A dash is an unknown value, never 0. `arcade docs report` \
+            "Intervals are 95% intervals. A dash marks an unknown value, never 0. `arcade docs report` \
              explains each section, and `arcade docs metrics` explains each number."
                 .to_owned(),
         );
@@ -140,7 +140,7 @@ fn episodes(study: &Study) -> String {
     let why: Vec<String> =
         excluded.iter().map(|(why, count)| format!("{} {why}", words::grouped(*count))).collect();
     let ended = words::grouped(ended as u64);
-    format!("{all}: {ended} ended and count. Left out of every number: {}.", why.join(", "))
+    format!("{all}: {ended} ended and are counted. Excluded from all figures: {}.", why.join(", "))
 }
 
 /// Returns a sentence about the levels on which the players can be compared.
@@ -182,8 +182,8 @@ fn answers(study: &Study) -> Option<String> {
         let useless = useless.map(|(count, why)| format!("in {} {why}", words::grouped(count))).join(", ");
         let steps = words::grouped(all.total());
         let useless = match useless.as_str() {
-            "" => format!("All {steps} decisions (without baselines) had a usable answer"),
-            some => format!("In {steps} decisions (without baselines), no action was taken {some}"),
+            "" => format!("All {steps} decisions (excluding baselines) had a usable answer"),
+            some => format!("In {steps} decisions (excluding baselines), no action was taken {some}"),
         };
         match all.tolerant {
             0 => format!("{useless}."),

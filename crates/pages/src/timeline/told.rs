@@ -42,12 +42,12 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
         let changed = changed.into_iter().filter(|player| player.is_examinee == is_examinee).collect_vec();
         told.push(match &changed[..] {
             [] => format!(
-                "Among {} {who} with two months or more, no player changed by more than the errors of the \
-                 months can explain.",
+                "Among {} {who} with two months or more, no player changed by more than the monthly errors \
+                 can explain.",
                 words::grouped(tested)
             ),
             some => format!(
-                "Among {} {who} with two months or more, {} changed by more than the errors of the months can \
+                "Among {} {who} with two months or more, {} changed by more than the monthly errors can \
                  explain: {}.",
                 words::grouped(tested),
                 some.len(),
@@ -76,13 +76,13 @@ pub(super) fn answers(timeline: &Timeline) -> Vec<String> {
                    measured."
             .to_owned(),
         (count, true) => format!(
-            "Anchors see no drift in the {} that they could compare with the first.",
+            "According to the anchors, there is no drift in the {} that could be compared with the first.",
             many(count as u64, "month")
         ),
         (count, false) => format!(
-            "Anchors see a drift in {flagged}, of the {} that they could compare with the first. Without \
-             any drift, one month in twenty would be flagged, but not independently: all months are \
-             compared with the same first month.",
+            "According to the anchors, there is drift in {flagged}, out of the {} that could be compared with \
+             the first. Without any drift, one month in twenty would be flagged, but not independently: all \
+             months are compared with the same first month.",
             many(count as u64, "month")
         ),
     });
@@ -97,7 +97,7 @@ pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
         let refused = player.ability.months.iter().filter(|month| month.refusal.is_some()).collect_vec();
         if !refused.is_empty() {
             told.push(format!(
-                "{name} is not placed in {}: a reader needs two anchors, readers that stay the same, or a \
+                "{name} is not placed in {}: a reader needs two anchors (readers that stay the same), or a \
                  closer correlation between the difficulty for planners and for readers.",
                 refused.iter().map(|month| &month.month).join(", ")
             ));
@@ -110,7 +110,7 @@ pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
         }
         if player.ability.unknown > 0 {
             told.push(format!(
-                "{name}: {} on levels that are not on the scale were left out.",
+                "{name}: {} left out, because the levels are not on the scale.",
                 many(player.ability.unknown, "episode")
             ));
         }

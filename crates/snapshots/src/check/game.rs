@@ -114,7 +114,7 @@ impl Checking<'_> {
         let game = match Game::from_source(&source) {
             Ok(game) => game,
             Err(problems) => {
-                wrong("game.vgdl", format!("not a game: {problems}"));
+                wrong("game.vgdl", format!("not a valid game: {problems}"));
                 return Ok(check);
             }
         };
@@ -135,7 +135,7 @@ impl Checking<'_> {
             }
         };
         if card.id != folder || card.digest != game.digest() || !folder.ends_with(&game.digest().short()) {
-            wrong("card.json", "card, folder name and game do not match".to_owned());
+            wrong("card.json", "the card, the folder name and the game do not match".to_owned());
         }
         if matches!(&card.origin, Origin::Generated { patterns, .. } if patterns.len() > MAX_PATTERNS) {
             wrong("card.json", format!("the card has more than {MAX_PATTERNS} patterns"));
@@ -176,7 +176,7 @@ impl Checking<'_> {
             };
             *levels += 1;
             if level_card.file != file || level_card.digest != level.digest() {
-                wrong(&file, "card and level do not match".to_owned());
+                wrong(&file, "the card and the level do not match".to_owned());
             }
             for what in numbers::problems(level_card, &level) {
                 wrong("card.json", format!("{file}: {what}"));

@@ -113,7 +113,7 @@ pub fn verify_within(root: &Path, bounds: &Bounds) -> Result<Verification, Snaps
     let secret = match secret.map(|bytes| serde_json::from_slice::<Secret>(&bytes)).transpose() {
         Ok(secret) => secret,
         Err(error) => {
-            problems.push(format!("{SECRET_FILE}: not a secret: {error}"));
+            problems.push(format!("{SECRET_FILE}: not a valid secret: {error}"));
             None
         }
     };
@@ -230,8 +230,9 @@ fn check_header(manifest: &Manifest, problems: &mut Vec<String>) {
     let has_beacon = manifest.recipe.get(BEACON).is_some();
     let is_known = BeaconPart::of(&manifest.recipe).is_some_and(|beacon| beacon.value.is_some());
     if has_beacon && !(is_known && manifest.commitment.is_some()) {
-        problems
-            .push(format!("{MANIFEST_FILE}: the recipe has a beacon, but lacks its value or is not sealed"));
+        problems.push(format!(
+            "{MANIFEST_FILE}: the recipe has a beacon, but lacks the beacon's value or is not sealed"
+        ));
     }
     if let Some(what) = impossible(&manifest.minted_by()) {
         problems.push(format!("{MANIFEST_FILE}: {what}"));
@@ -257,8 +258,10 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
         wrong("lists a release twice, or lists the release itself");
     }
     match manifest.parent {
-        Some(_) if known.releases.is_empty() => wrong("lists no release, but there is a parent"),
-        None if known != Known::default() => wrong("lists earlier releases, but there is no parent"),
+        Some(_) if known.releases.is_empty() => wrong("lists no release, but the manifest states a parent"),
+        None if known != Known::default() => {
+            wrong("lists earlier releases, but the manifest states no parent")
+        }
         _ => {}
     }
 }

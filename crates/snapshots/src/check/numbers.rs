@@ -29,11 +29,11 @@ pub(crate) fn problems(card: &LevelCard, level: &Level) -> Vec<String> {
     expect(
         sides == found,
         format!(
-            "the card states a board of {} by {}, but the board has {} by {}",
+            "the card states a board of {} by {}, but the board is {} by {}",
             sides.0, sides.1, found.0, found.1
         ),
     );
-    expect(is_share(card.difficulty), format!("the difficulty {} is outside 0 to 1", card.difficulty));
+    expect(is_share(card.difficulty), format!("the difficulty {} is not between 0 and 1", card.difficulty));
     let ticks = card.witness_ticks;
     let possible = 1..=MAX_TICKS as usize;
     expect(
@@ -69,7 +69,7 @@ fn is_score(number: f64) -> bool {
 fn of_rate(rate: &Rate) -> Option<String> {
     let Rate { wins, plays, interval, mean_score, .. } = *rate;
     if plays > MAX_PLAYS {
-        return Some(format!("has {plays} plays, more than {MAX_PLAYS}"));
+        return Some(format!("has {plays} plays; the limit is {MAX_PLAYS}"));
     }
     if wins > plays {
         return Some(format!("has {wins} wins in {plays} plays"));
@@ -95,11 +95,11 @@ fn of_ladder(ladder: &Ladder) -> Vec<String> {
             problems.push(format!("`{name}` has an impossible mean number of ticks for {} wins", rate.wins));
         }
         if !reward.is_none_or(is_share) {
-            problems.push(format!("`{name}` has a reward outside 0 to 1"));
+            problems.push(format!("`{name}` has a reward that is not between 0 and 1"));
         }
     }
     if !ease.is_none_or(is_share) {
-        problems.push("the ease is outside 0 to 1".to_owned());
+        problems.push("the ease is not between 0 and 1".to_owned());
     }
     let beaten = rungs.iter().any(|result| result.rate.wins > 0);
     let ease = ease.unwrap_or_default();

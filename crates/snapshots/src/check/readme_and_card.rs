@@ -42,8 +42,8 @@ pub(super) fn problems(
 fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     let value: Value = match serde_json::from_slice(text) {
         Ok(value @ Value::Object(_)) => value,
-        Ok(_) => return vec!["not a release card: not an object".to_owned()],
-        Err(error) => return vec![format!("not a release card: {error}")],
+        Ok(_) => return vec!["not a valid release card: not a JSON object".to_owned()],
+        Err(error) => return vec![format!("not a valid release card: {error}")],
     };
     let mut problems = Vec::new();
     if value.get("canary").and_then(Value::as_str) != Some(&manifest.canary) {
@@ -64,7 +64,7 @@ fn of_card(text: &[u8], manifest: &Manifest, cards: &[&Card]) -> Vec<String> {
     }
     match serde_json::from_value::<ReleaseCard>(value) {
         Ok(card) => problems.extend(of_known_card(&card, cards)),
-        Err(error) => problems.push(format!("not a release card: {error}")),
+        Err(error) => problems.push(format!("not a valid release card: {error}")),
     }
     problems
 }

@@ -74,7 +74,7 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
         return Err(Flaw::NotCanonical);
     }
     if let Some(item) = list.items.iter().find(|item| !part.has(&item.path)) {
-        return Err(Flaw::NotAList(format!("`{}` does not belong to this part", item.path.escape_debug())));
+        return Err(Flaw::NotAList(format!("`{}` does not belong in this list", item.path.escape_debug())));
     }
     if let Some(pair) = list.items.windows(2).find(|pair| pair[0].path >= pair[1].path) {
         let path = pair[1].path.escape_debug();

@@ -38,7 +38,7 @@ pub enum ProofError {
     },
     /// The item is under the root only indirectly, through a list of withheld files.
     #[error("`{}` is covered by the root only through the list of withheld files, so it has no proof of its \
-             own: prove `{list}`, which has its digest", id.escape_debug())]
+             own: prove `{list}`, which contains its digest", id.escape_debug())]
     Listed {
         /// The requested item's ID.
         id: String,
@@ -169,7 +169,9 @@ impl ItemProof {
             // files, including the manifest.
             let (index, size) = (file.proof.index, file.proof.size);
             if index >= size || size > Limits::SNAPSHOT.files {
-                return unsound(format!("`{path}` is leaf {index} of {size}, which no release has"));
+                return unsound(format!(
+                    "`{path}` is leaf {index} of {size}, a position that no release has"
+                ));
             }
             let of_the_game = game_of(&file.path) == Some(proof.item.as_str());
             if file.path != proof.item && !of_the_game {

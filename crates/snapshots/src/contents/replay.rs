@@ -97,7 +97,7 @@ pub(crate) fn replay(episode: &Episode, game: &Game, level: &Level, meter: &Mete
             return Replayed::OutOfWork;
         }
         if state.is_over() {
-            return Replayed::Wrong(format!("the episode continues after its end in tick {tick}"));
+            return Replayed::Wrong(format!("the episode ends in tick {tick}, but contains further actions"));
         }
         let mut work = Work(0);
         game.step_watched(&mut state, action, &mut work);

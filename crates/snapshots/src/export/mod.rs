@@ -48,7 +48,7 @@ pub enum ExportError {
     NoTwin(Vec<(String, TwinError)>),
     /// Solutions were requested, but the release withholds them.
     #[error(
-        "`{0}` is sealed, and its solutions are withheld: omit --solutions, or reveal it first, as with `arcade release \
+        "`{0}` is sealed, and its solutions are withheld: omit --solutions, or reveal it first with `arcade release \
          PUBLIC --reveal HELD --out DIR`"
     )]
     Held(String),

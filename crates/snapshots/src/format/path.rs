@@ -37,7 +37,7 @@ pub enum PathProblem {
     #[error("the path has the character {0:?}: only A-Z, a-z, 0-9, `.`, `_`, `-` and `/` may be used")]
     Character(char),
     /// The name is not Unicode.
-    #[error("the path is not Unicode")]
+    #[error("the path is not valid Unicode")]
     NotUnicode,
 }
 

@@ -115,7 +115,7 @@ impl fmt::Display for MintedBy {
         let known = Version::that_mints(self.generation, self.semantics).map(|version| version.number);
         match known.or(self.version.as_deref()) {
             Some(number) => write!(f, "arcade {number}")?,
-            None => write!(f, "an unknown arcade")?,
+            None => write!(f, "an unknown version of arcade")?,
         }
         write!(f, " (GENERATION {}, SEMANTICS {})", self.generation, self.semantics)
     }

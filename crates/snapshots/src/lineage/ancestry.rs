@@ -34,7 +34,9 @@ pub enum AncestryError {
     #[error("the parent does not verify: {0}")]
     Damaged(String),
     /// The parent's record of its own ancestors is in a different version's format.
-    #[error("the parent's list of earlier releases cannot be read ({0}): use the arcade that minted it")]
+    #[error(
+        "the parent's list of earlier releases cannot be read ({0}): use the version of arcade that minted the parent"
+    )]
     Unreadable(serde_json::Error),
     /// An ancestor has the same name.
     #[error("an earlier release is named `{0}`: choose another name")]
@@ -64,9 +66,7 @@ impl Holdings {
     /// # Errors
     /// Returns an error if a card, a game or a level is malformed or cannot be read.
     pub(crate) fn read(contents: &Contents, manifest: &Manifest) -> Result<Holdings, AncestryError> {
-        let damaged = |path: &str| {
-            AncestryError::Damaged(format!("{path}: not the content that a release has at this path"))
-        };
+        let damaged = |path: &str| AncestryError::Damaged(format!("{path}: not valid content for this path"));
         let read = |path: &str| -> Result<String, AncestryError> {
             String::from_utf8(contents.read(path)?).map_err(|_| damaged(path))
         };

@@ -282,8 +282,8 @@ fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
         }
         let Some(follower) = followers.get(&parent) else { continue };
         problems.push(format!(
-            "`{}` in {} and `{}` in {} follow the same release, root {parent}: these are two histories: pass \
-             only one of them",
+            "`{}` in {} and `{}` in {} follow the same release (root {parent}), so they belong to different \
+             histories: pass only one of them",
             follower.name,
             follower.place.in_message(),
             link.name,

@@ -65,7 +65,7 @@ pub enum MintError {
         advice: String,
     },
     /// No selection of candidates that meets the quotas was found.
-    #[error("no selection from {candidates} candidates meets the recipe: {missed}; {advice}")]
+    #[error("no selection from {candidates} candidates satisfies the recipe: {missed}; {advice}")]
     Uneven {
         /// The number of candidates.
         candidates: usize,

@@ -351,7 +351,7 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let wrong = each.enumerate();
     let wrong = wrong.map(|(number, level)| Some(format!("`{id}`, level {number}: {}", of_level(level)?)));
     let added = || SECTIONS.iter().find_map(|section| section.job_problem(recipe, frozen, &game, root));
-    wrong.flatten().next().or_else(|| Some(format!("`{id}` has {}", added()?)))
+    wrong.flatten().next().or_else(|| Some(format!("`{id}`: {}", added()?)))
 }
 
 fn unsound(folder: &Path, what: String) -> MergeError {
@@ -366,13 +366,17 @@ fn shard_file(folder: &Path) -> Result<ShardFile, MergeError> {
     if format != SHARD_FORMAT {
         return Err(unsound(
             folder,
-            format!("shard format {format} is not {SHARD_FORMAT}: use the arcade that made it"),
+            format!(
+                "shard format {format} is not {SHARD_FORMAT}: use the version of arcade that made the shard"
+            ),
         ));
     }
     let file: ShardFile = serde_json::from_slice(&bytes).map_err(syntax)?;
     if (file.generation, file.semantics) != (generators::GENERATION, engine::SEMANTICS) {
         let made_by = MintedBy { version: None, generation: file.generation, semantics: file.semantics };
-        let what = format!("made by {made_by}; this is arcade {CURRENT}: merge with the arcade that made it");
+        let what = format!(
+            "made by {made_by}; this is arcade {CURRENT}: merge with the version that made the shard"
+        );
         return Err(unsound(folder, what));
     }
     let Shard { number, of } = file.shard;
@@ -477,7 +481,10 @@ mod tests {
             check_of(&recipe, Some(&secret), alter, |_| (), expect);
         };
         check(&|game| assert!(game.sibling.is_some() && game.seconds[0].is_some()), None);
-        check(&|game| game.seconds.push(None), Some("the second wins do not match the number of levels"));
+        check(
+            &|game| game.seconds.push(None),
+            Some("the number of second wins differs from the number of levels"),
+        );
         let second = |game: &mut FrozenGame| game.seconds[0].clone().unwrap();
         let with = |game: &mut FrozenGame, second| game.seconds[0] = Some(second);
         let foreign = |game: &mut FrozenGame| {

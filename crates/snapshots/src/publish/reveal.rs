@@ -29,7 +29,7 @@ pub enum RevealError {
     /// The release has no wins that were chosen by coins.
     #[error(
         "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are \
-         revealed with everything else; omit --solutions"
+         revealed with everything else, so omit --solutions"
     )]
     NoSecondWins(String),
     /// The two parts differ from the content to which the manifest commits.

@@ -134,8 +134,8 @@ impl Recipe {
         }
         check_mix("generated.mix", new.mix)?;
         if new.mix.search > 0.0 || new.mix.evolutionary > 0.0 {
-            let help = "requests kernel games by search, but kernel games can only be drawn: leave out \
-                        `mix`, or request games in [invented], whose `mix` takes all methods";
+            let help = "requests kernel games by search, but kernel games can only be drawn: omit `mix`, \
+                        or request games in [invented], whose `mix` allows all methods";
             return wrong("generated.mix", help);
         }
         if let Some(kind) = new.kinds.iter().find(|&&kind| !kinds().any(|known| known == kind)) {
@@ -246,9 +246,10 @@ impl Recipe {
             }
         }
         match self.taxonomy.crowd {
-            Some(crowd) if !(crowd > 0.0 && crowd <= 1.0) => {
-                wrong("taxonomy.crowd", format!("is {crowd}; the value must be a fraction above 0, up to 1"))
-            }
+            Some(crowd) if !(crowd > 0.0 && crowd <= 1.0) => wrong(
+                "taxonomy.crowd",
+                format!("is {crowd}; the value must be a fraction above 0 and at most 1"),
+            ),
             _ => Ok(()),
         }
     }

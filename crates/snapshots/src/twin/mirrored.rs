@@ -110,7 +110,7 @@ fn refuse(analysis: &Analysis) -> Result<(), String> {
         let Some(class) = game.class(stype) else { continue };
         let why = match class {
             C::PathChaser | C::PathAltChaser | C::RandomPathAltChaser => {
-                "turns in a fixed order among paths of equal length"
+                "chooses among paths of equal length by a fixed order of directions"
             }
             C::BirdAvatar => "drifts to the right",
             C::ShootOnlyAvatar => "fires a different shot for each arrow key",
@@ -399,7 +399,7 @@ mod tests {
             &boat("PathChaser stype=rower"),
             "",
             "A b g\n",
-            "`boat` (PathChaser) turns in a fixed order among paths of equal length",
+            "`boat` (PathChaser) chooses among paths of equal length by a fixed order of directions",
         );
     }
 

@@ -67,7 +67,7 @@ pub struct TwinGame {
 #[non_exhaustive]
 pub enum TwinError {
     /// The text is not a game.
-    #[error("not a game: {0}")]
+    #[error("not a valid game: {0}")]
     Game(Diagnostics),
     /// A level does not belong to the game.
     #[error("lvl{number}.txt is not a level of this game: {problems}")]

@@ -132,7 +132,7 @@ fn invalid_games_and_levels_are_reported() {
         twin::of_game(Twin::Masked, source, &["A e\n".to_owned(), level.to_owned()], &[])
     };
     let told = |problem: TwinError| problem.to_string();
-    assert!(told(of("BasicGame\n", "A e\n").unwrap_err()).starts_with("not a game: "));
+    assert!(told(of("BasicGame\n", "A e\n").unwrap_err()).starts_with("not a valid game: "));
     assert!(told(of(FLAT, "A?e\n").unwrap_err()).starts_with("lvl1.txt is not a level of this game: "));
 }
 

@@ -152,7 +152,7 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     let Link { name, .. } = &start;
     let mut said = Vec::new();
     match (lineage.complete, sound.count()) {
-        (true, 0) => said.push(format!("`{name}` has no parent, and so is the first release of its chain.")),
+        (true, 0) => said.push(format!("`{name}` has no parent, so it is the first release of its chain.")),
         (true, count) => said.push(format!(
             "{} before `{name}`, back to the first, and each has the root that its successor states.",
             releases(count)
@@ -235,7 +235,7 @@ fn words(found: &Verification) -> Vec<String> {
         Witnesses::Replayed(count) => format!("{count} recorded wins were replayed, state by state."),
         Witnesses::Held => "Sealed: the wins are withheld until the reveal.".to_owned(),
         Witnesses::NotReplayed { semantics } => {
-            format!("The wins need semantics {semantics} of the engine, and so were not replayed.")
+            format!("The wins need semantics {semantics} of the engine, so they were not replayed.")
         }
     };
     vec![said, wins]

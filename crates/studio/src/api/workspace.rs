@@ -169,7 +169,7 @@ pub(crate) fn remove(studio: &Studio, id: &str, name: &str, asked: Remove) -> Re
         return Err(Refusal::forbidden("only levels can be removed"));
     };
     if files::level_number(name) < Some(last) {
-        return Err(Refusal::forbidden(format_args!("only the last level can be removed, lvl{last}.txt"))
+        return Err(Refusal::forbidden(format_args!("only the last level, lvl{last}.txt, can be removed"))
             .help("move the parts that you want to keep to earlier levels"));
     }
     unchanged(&path, name, Some(asked.base), "check the current content before you remove the level")?;

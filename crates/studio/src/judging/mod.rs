@@ -132,7 +132,7 @@ impl Judging {
             return Err(JudgingError::Games("comparing games requires two sources of games".to_owned()));
         }
         if let Some(empty) = sources.iter().find(|source| source.games.is_empty()) {
-            return Err(JudgingError::Games(format!("{}: there is no game with a level", empty.name)));
+            return Err(JudgingError::Games(format!("{} contains no game with a level", empty.name)));
         }
         let counts: Vec<usize> = sources.iter().map(|source| source.games.len()).collect();
         let names = sources.iter().map(|source| source.name.clone()).collect();
@@ -251,7 +251,7 @@ impl Judging {
             after_report: self.ended.load(Ordering::Relaxed),
         };
         self.keeper().add(judgement).map_err(|error| {
-            Refusal::failed(format_args!("the judgement was not written: {error}"))
+            Refusal::failed(format_args!("the judgement could not be written: {error}"))
                 .help("check the available disk space, and answer again")
         })
     }

@@ -149,7 +149,7 @@ fn parse(bytes: &[u8], file: &Path) -> Result<(Judgements, usize, Vec<String>), 
         match serde_json::from_slice(text) {
             Ok(judgement) => judgements.add(judgement),
             Err(_) if !is_whole => {
-                let remark = format!("{}: the last line was cut off, and is left out", file.in_message());
+                let remark = format!("{}: the last line was cut off and is ignored", file.in_message());
                 return Ok((judgements, sound, vec![remark]));
             }
             Err(error) => {

@@ -68,7 +68,7 @@ impl Drawn {
             .map_err(|error| wrong(format!("isn't a beacon value: {error}; {SHAPE}")))?;
         let DrawnFile { source, round, value, signature, previous_signature, chain } = file;
         if signature.is_none() && (previous_signature.is_some() || chain.is_some()) {
-            return Err(wrong(format!("has no `signature`, but has fields that belong to one; {SHAPE}")));
+            return Err(wrong(format!("has no `signature`, but has fields that accompany one; {SHAPE}")));
         }
         let proof = signature.map(|signature| Proof { signature, previous_signature, chain });
         let drawn = Drawn { round: Round { source, round }, value, proof };

@@ -211,7 +211,7 @@ impl Entry {
             Entry::Commitment { release, .. } => format!("commitment   {release}"),
             Entry::Beacon { round, proof, .. } => {
                 let is_signed = proof.is_some() && check_source(&round.source) == Ok(true);
-                let known = if is_signed { "signed by the network" } else { "as the log states it" };
+                let known = if is_signed { "signed by the network" } else { "as stated in the log" };
                 format!("beacon       round {} of {}, {known}", round.round, round.source)
             }
             Entry::Root { release, root, .. } => format!("root         {release}  {root}"),

@@ -168,7 +168,7 @@ fn earlier_thresholds_count_no_longer() {
         refused(
             home.path(),
             &set_anchor(anchor),
-            "signed by ada of the newest set of keys, 2, but 2 must sign",
+            "signed by ada of the newest set of keys (2), but 2 must sign",
         );
     }
     // An earlier statement is valid if sufficiently many of the current keys have signed it.

@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
         let Value::Text(text) = value else {
             let value = &param.value.text;
             let message =
-                format!("`{key}` takes a list of whole numbers, one entry for each counter, not `{value}`");
+                format!("`{key}` takes a list with one whole number for each counter, not `{value}`");
             let problem = Diagnostic::error("wrong-type", param.value.span, message);
             let list = format!("write `{key}={value},{value}`: the reference engine ignores a single number");
             let problem = problem.help(list);

@@ -55,7 +55,7 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
     let indent = usual(inside);
     let off = |line: &Line<'_>| line.indent > head && line.indent != indent;
     for run in runs(lines, |_, line| off(line).then_some(line.indent)) {
-        let message = format!("{} indented unlike the others{}", these(run.len()), of_tabs(run[0]));
+        let message = format!("{} not indented like the others{}", these(run.len()), of_tabs(run[0]));
         let problem = Diagnostic::error("stray-indent", run[0].span, message);
         let help = format!("indent every line of {} by the same {indent} columns", section.name());
         problems.push(shifted(problem.help(help), run, indent));
@@ -89,12 +89,12 @@ pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
         let (first, count) = (run[0], run.len());
         let below = head + (first.indent - head) / step * step;
         let near = if below == head { below + step } else { below };
-        let message = format!("{} indented unlike the others{}", these(count), of_tabs(first));
+        let message = format!("{} not indented like the others{}", these(count), of_tabs(first));
         let problem = Diagnostic::warning("uneven-indent", first.span, message);
         let it = if count == 1 { "it" } else { "the first of them" };
         let problem = problem.help(match near == below {
             true => format!("indent {it} by {near} columns, or by {} below its parent", near + step),
-            false => format!("indent {it} by {near} columns, like them"),
+            false => format!("indent {it} by {near} columns, like the others"),
         });
         let at = lines.iter().position(|line| line.span == first.span).unwrap_or(0);
         let deepest = above[at].next_multiple_of(step) + step;

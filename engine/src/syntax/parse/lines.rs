@@ -32,7 +32,7 @@ impl Reader {
             let deeper = lines[at + 1..].iter().take_while(|child| child.indent > line.indent).count();
             if line.indent != indent && !self.columns {
                 let of_tabs = indents::of_tabs(line);
-                let message = format!("this line is indented unlike its siblings{of_tabs}");
+                let message = format!("this line is not indented like its siblings{of_tabs}");
                 let problem = Diagnostic::warning("uneven-indent", line.span, message)
                     .help(format!("indent this line by {indent} columns, like its siblings"));
                 let title = format!("Indent it by {indent} columns");

@@ -173,7 +173,7 @@ fn depths(header: &Line<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Diag
     }
     let usual = indents::usual(below.iter().map(|part| part.head.indent));
     for part in below.iter().filter(|part| part.head.indent != usual) {
-        let message = format!("{} is indented unlike the other sections", part.section.name());
+        let message = format!("{} is not indented like the other sections", part.section.name());
         let problem = match part.head.indent > usual {
             true => Diagnostic::error("stray-indent", part.head.span, message),
             false => Diagnostic::warning("uneven-indent", part.head.span, message),

@@ -83,7 +83,7 @@ fn a_rule_that_requires_more_than_any_sprite_can_hold_is_named() {
     };
     check("", "", &[]);
     let asks =
-        "the game cannot be won: `stone avatar > killIfOtherHasMore` needs 3 `egg`, and no sprite can hold";
+        "the game cannot be won: `stone avatar > killIfOtherHasMore` needs 3 `egg`, but no sprite can hold";
     check("Resource limit=3", "Resource limit=1", &[&format!("{asks} more than 1")]);
     let kind = format!("{asks} any: `egg` is Immovable, not Resource");
     check("egg > Resource limit=3", "egg > Immovable", &[&kind]);

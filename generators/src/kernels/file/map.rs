@@ -125,7 +125,7 @@ impl Map {
             if let Some((name, tokens)) = line.split_once(':') {
                 let room = room(name.trim(), tokens).map_err(fail)?;
                 if map.room(&room.name).is_some() {
-                    return Err(fail("this room exists already".to_owned()));
+                    return Err(fail("this room is already defined".to_owned()));
                 }
                 map.rooms.push(room);
             }

@@ -54,7 +54,7 @@ impl Template {
         let mut parts = Vec::new();
         let mut rest = text;
         while let Some((before, after)) = rest.split_once('{') {
-            let (inside, after) = after.split_once('}').ok_or("a `{` without its `}`")?;
+            let (inside, after) = after.split_once('}').ok_or("a `{` without a matching `}`")?;
             parts.push(Part::Text(before.to_owned()));
             parts.push(number(inside, numbers)?);
             rest = after;
@@ -91,7 +91,7 @@ fn number(inside: &str, numbers: &mut Numbers) -> Result<Part, String> {
         }
         let name = inside.split_once(':').map(|(name, _)| name.trim().to_owned());
         if name.is_some() && numbers.0.iter().any(|number| number.name == name) {
-            return Err(format!("`{{{bounds}}}` defines its name again"));
+            return Err(format!("`{{{bounds}}}` defines a name that is already defined"));
         }
         numbers.0.push(Number { name, least, most });
         return Ok(Part::Number(numbers.0.len() - 1, 0));
@@ -99,7 +99,9 @@ fn number(inside: &str, numbers: &mut Numbers) -> Result<Part, String> {
     let (name, added) = match inside.find(['+', '-']) {
         None => (inside, 0),
         Some(at) => {
-            let added = inside[at..].parse().map_err(|_| format!("`{{{inside}}}` adds no number"))?;
+            let added = inside[at..]
+                .parse()
+                .map_err(|_| format!("`{{{inside}}}` does not add or subtract a number"))?;
             (&inside[..at], added)
         }
     };

@@ -24,7 +24,7 @@ fn filled(text: &str, nouns: &Nouns, capital: fn(&str) -> String) -> Result<Stri
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('<') {
         let (inside, after) =
-            after.split_once('>').ok_or_else(|| format!("a `<` without its `>` in `{text}`"))?;
+            after.split_once('>').ok_or_else(|| format!("a `<` without a matching `>` in `{text}`"))?;
         filled.push_str(before);
         filled.push_str(
             &phrase(inside, nouns, capital)

@@ -316,7 +316,7 @@ fn a_swapped_rule_is_named_with_its_repair() {
     }
     assert!(!said.contains("never-fires"), "{said}");
     let headline = "FAILS well-formed: the game cannot be won with `avatar lamp > collectResource` as it stands, \
-                    and may be won with the two sides swapped (./game.vgdl:13)\n";
+                    but may be winnable with the two sides swapped (./game.vgdl:13)\n";
     assert!(said.contains(headline), "{said}");
 }
 
@@ -388,7 +388,7 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
         "(./game.vgdl:20)\n",
         "where a `raft` is, too; tick ",
         "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
-        "the closest reachable state to a win: 1 nest left",
+        "the reachable state closest to a win: 1 nest left",
         // The author's own characters.
         "D duckling, ",
         "~ pond",

@@ -32,8 +32,8 @@ pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
     let orders: Vec<f64> = measured.iter().filter_map(|game| game.row.order).collect();
     let in_wins = |edge: &Edge| edge.points >= SURE && edge.interval[0] > 0.0;
     let paying = edges.iter().filter(|edge| edge.pays);
-    let note = "The strongest player against the best player that does not look ahead, over all levels of \
-                a game; then each player over all games.";
+    let note = "The comparisons are between the strongest player and the best player that does not look ahead, \
+                over all levels of a game. Below them are each player's results over all games.";
     let section = Section::new("skill", "Does skill pay?", note)
         .share("pays", "skill pays, in wins or in score", Share::yes(edges.iter().map(|edge| edge.pays)))
         .share("by_score_only", "skill pays in score only", Share::yes(paying.map(|edge| !in_wins(edge))))
@@ -57,7 +57,8 @@ pub(super) fn rules(measured: &[Measured<'_>]) -> Section {
     let rows = || measured.iter().map(|game| &game.row);
     let executed = Share::new(rows().map(|row| row.executed).sum(), rows().map(|row| row.rules).sum());
     let counts: Vec<f64> = rows().map(|row| row.rules as f64).collect();
-    let note = "Counts use in at least one recorded episode. Guards do not count as rules.";
+    let note =
+        "Anything that occurs in at least one recorded episode counts as used. Guards do not count as rules.";
     Section::new("rules", "Is everything used?", note)
         .share(
             "all_used",

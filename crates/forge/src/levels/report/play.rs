@@ -133,7 +133,7 @@ pub(super) fn lengths(levels: &[SurveyedLevel]) -> Section {
         pushes.clear();
     }
     Section::new("lengths", "How long is a win?", "The length of the shortest win found.")
-        .share("proved", "proved minimal", Share::new(shortest.len() as u64, ticks.len() as u64))
+        .share("proved", "proven minimal", Share::new(shortest.len() as u64, ticks.len() as u64))
         .quantiles("ticks", "ticks of the witness", &ticks)
         .quantiles("shortest", "ticks, if proven minimal", &shortest)
         .quantiles("pushes", "pushes of the witness", &pushes)
@@ -180,7 +180,7 @@ pub(super) fn rules(game: &Game, levels: &[SurveyedLevel]) -> Section {
     };
     let lines: Vec<LineUse> = (0..game.description().interactions.len()).map(line).collect();
     let used = Share::yes(lines.iter().filter(|line| !line.guard).map(|line| line.levels.count > 0));
-    let note = "Followed by each interaction, with the levels whose witness executes it.";
+    let note = "Each interaction is listed below, with the levels whose witness executes it.";
     let section = Section::new("rules", "Which rules do they use?", note)
         .share("used", "interactions that some witness executes", used)
         .mean("each", "fraction of these interactions that one witness executes", Mean::over(LEVEL, &each))

@@ -95,7 +95,7 @@ fn cut(text: &str, most: usize) -> String {
         None => text.trim_end().to_owned(),
         Some((end, _)) => {
             let more = text[end..].chars().count() as u64;
-            format!("{} … [{} more letters]", text[..end].trim_end(), words::grouped(more))
+            format!("{} … [{} more characters]", text[..end].trim_end(), words::grouped(more))
         }
     }
 }
@@ -134,6 +134,6 @@ mod tests {
     #[test]
     fn long_texts_say_how_much_is_left_out() {
         assert_eq!(cut("short\n", 10), "short");
-        assert_eq!(cut("äöüäöü", 4), "äöüä … [2 more letters]");
+        assert_eq!(cut("äöüäöü", 4), "äöüä … [2 more characters]");
     }
 }

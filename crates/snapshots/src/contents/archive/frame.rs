@@ -217,7 +217,7 @@ impl FrameReader {
     pub(super) fn finish(&mut self) -> Result<(), Unreadable> {
         let damaged = |what: &str| Err(Unreadable::Damaged(what.into()));
         if self.left > 0 || self.decoder.read(&mut [0]).map_err(unreadable)? > 0 {
-            return damaged("there is extra data after its end");
+            return damaged("there is extra data after the end of the archive");
         }
         // The decoder compares the checksum only here.
         self.decoder.finish_frame().map_err(unreadable)?;

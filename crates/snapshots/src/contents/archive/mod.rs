@@ -227,8 +227,11 @@ impl Archive {
         let mut manifest = Manifest::parse(&manifest_bytes).map_err(|error| error.in_manifest(&place))?;
         let mut problems = manifest_problems(&manifest, &manifest_bytes)?;
         if name != manifest.name {
-            let what =
-                format!("the folder is `{}`, but the release is `{}`", name.escape_debug(), manifest.name);
+            let what = format!(
+                "the folder is called `{}`, but the release is called `{}`",
+                name.escape_debug(),
+                manifest.name
+            );
             problems.push(Problem { path: MANIFEST_FILE.into(), flaw: Flaw::NotAsPacked(what) });
         }
         let mut files = BTreeMap::new();
@@ -305,7 +308,10 @@ fn read_manifest(reader: &mut FrameReader) -> Result<(String, Vec<u8>), Unreadab
     let name = path.strip_suffix(MANIFEST_FILE).and_then(|folder| folder.strip_suffix('/'));
     let name = name.filter(|name| !name.contains('/') && crate::check_path(name).is_ok());
     let name = name.ok_or_else(|| {
-        Unreadable::Damaged(format!("the manifest must come first, but `{}` does", path.escape_debug()))
+        Unreadable::Damaged(format!(
+            "the manifest must come first, but the first entry is `{}`",
+            path.escape_debug()
+        ))
     })?;
     if size > MANIFEST_LIMIT {
         return Err(Unreadable::Damaged(format!("the manifest is larger than {MANIFEST_LIMIT} bytes")));

@@ -39,7 +39,8 @@ impl Bounded<'_> {
 
     fn spend<E: Error>(self, values: usize) -> Result<(), E> {
         let left = self.values.get().checked_sub(values);
-        let left = left.ok_or_else(|| E::custom(format_args!("more than {MAX_VALUES} values in the recipe")));
+        let left =
+            left.ok_or_else(|| E::custom(format_args!("the recipe has more than {MAX_VALUES} values")));
         left.map(|left| self.values.set(left))
     }
 

@@ -15,7 +15,10 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), SnapshotError> {
     check_format(manifest)?;
     let name = &manifest.name;
     if name.contains('/') || check_path(name).is_err() {
-        return Err(unsound(format!("the name `{}` is not one safe path component", name.escape_debug())));
+        return Err(unsound(format!(
+            "the name `{}` is not a single, safe path component",
+            name.escape_debug()
+        )));
     }
     if !is_canary(&manifest.canary) {
         return Err(unsound(format!(
@@ -203,7 +206,7 @@ mod tests {
             |m| m.version = Some("0.12.0; rm x".into()),
             "the version `0.12.0; rm x` must have three numbers",
         );
-        refuse(|m| m.name = String::new(), "the name `` is not one safe path component");
+        refuse(|m| m.name = String::new(), "the name `` is not a single, safe path component");
         refuse(|m| m.name = "a/b".into(), "the name `a/b` is not");
         refuse(|m| m.name = "a\u{1b}".into(), "the name `a\\u{1b}` is not");
         refuse(|m| m.canary = "xyz".into(), "the canary `xyz` is not");

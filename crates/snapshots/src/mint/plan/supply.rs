@@ -56,7 +56,7 @@ impl Plan<'_> {
             asked,
             most,
             why: format!(
-                "no two games share their rules, and a recipe can count on {most} sets of rules{of}{new}"
+                "no two games share their rules, and a recipe can count on only {most} sets of rules{of}{new}"
             ),
             advice: format!("lower `generated.games` to {most} or less{more}"),
         })
@@ -119,7 +119,7 @@ fn invented_of(sets: f64, asked: usize, is_later: bool) -> Result<Option<usize>,
         asked,
         most,
         why: format!(
-            "the mechanics make about {sets:.0} sets of rules{new}, of which one in {SETS_OF_A_GAME} may become a game"
+            "the mechanics allow about {sets:.0} sets of rules{new}, of which one in {SETS_OF_A_GAME} may become a game"
         ),
         advice: format!("lower `invented.games` to {most} or less, or add mechanics"),
     })

@@ -50,7 +50,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         ReleaseKind::Sealed => SEALED,
     };
     let mut text = format!(
-        "# Datasheet of `{}`\n\n{}\n\n| | |\n|---|---|\n| root | `{}` |\n| kind | {kind} |\n| release before | {parent} |\n\
+        "# Datasheet of `{}`\n\n{}\n\n| | |\n|---|---|\n| root | `{}` |\n| kind | {kind} |\n| previous release | {parent} |\n\
          | minted by | {} |\n| canary | `{}` |\n\n",
         manifest.name,
         description.trim(),
@@ -85,7 +85,7 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         [("rules of a game", &card.rules), ("ticks of a winning episode", &card.witness_ticks)]
     {
         if let Some(Quantiles { min, median, max, .. }) = figures {
-            let _ = writeln!(text, "| {what} | {min:.0} to {max:.0}, {median:.0} in the median |");
+            let _ = writeln!(text, "| {what} | {min:.0} to {max:.0} (median {median:.0}) |");
         }
     }
     text.push('\n');
@@ -95,11 +95,11 @@ pub(super) fn datasheet(minted: &Minted) -> String {
         The release measures how well players, above all language models, understand and win unseen games. Do not train on \
         the release: a model's score on a release from its training data is meaningless.\n\n\
         ## Known limits\n\n\
-        - All games are of one family: grid games in VGDL for one player, with a few dozen kinds of rules.\n\
-        - Games and levels were chosen by programs.";
+        - All games belong to one family: single-player grid games in VGDL, with a few dozen kinds of rules.\n\
+        - Games and levels were selected by programs.";
     if !card.ladder.is_empty() {
-        text += " Difficulty was measured with planners, not with people, in few episodes per planner, so \
-                 labels have errors and depend on how well planners play a game.";
+        text += " Difficulty was measured with planners, not with people, and with few episodes per planner, \
+                 so labels have errors and depend on how well planners play a game.";
     }
     // The recipe was checked, unless a different version minted it.
     let recipe: Option<Recipe> = serde_json::from_value(manifest.recipe.clone()).ok();
@@ -130,7 +130,7 @@ fn ladder(text: &mut String, rungs: &[Rung]) {
         *text += "Difficulty was not measured: the recipe does not request `skill`.\n\n";
         return;
     }
-    *text += "| player | wins | 95 %, games drawn again |\n|---|---|---|\n";
+    *text += "| player | wins | 95 % (games resampled) |\n|---|---|---|\n";
     for rung in rungs {
         let _ = writeln!(text, "{}", rung.row());
     }
@@ -147,8 +147,9 @@ fn made(text: &mut String, minted: &Minted) {
     *text += "## How it was made\n\n";
     let _ = writeln!(
         text,
-        "By the generators of Infinite Arcade from the recipe in `MANIFEST.json`, which gives the same bytes on any machine: \
-         `arcade regenerate`. {} games and {} levels were tried, with {:.1} million calls of the game engine.",
+        "The generators of Infinite Arcade made the release from the recipe in `MANIFEST.json`, which gives the same bytes on \
+         any machine (check with `arcade regenerate`). {} games and {} levels were tried, with {:.1} million calls to \
+         the game engine.",
         tally.games_tried,
         tally.levels_tried,
         tally.calls as f64 / 1e6,

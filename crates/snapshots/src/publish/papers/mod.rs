@@ -43,7 +43,7 @@ fn licence(manifest: &Manifest) -> String {
     format!(
         "SPDX-License-Identifier: MIT OR Apache-2.0\n\n\
          The games, levels, cards, episodes and texts of the release `{}` were made by the programs of Infinite Arcade\n\
-         from a recipe; those called after a corpus game follow a game that the authors of Infinite Arcade wrote.\n\
+         from a recipe; those named after a corpus game are based on a game that the authors of Infinite Arcade wrote.\n\
          As far as anybody holds rights in any of it, you may use it under either of these licences, as you choose:\n\n\
          - the Apache License, Version 2.0: https://www.apache.org/licenses/LICENSE-2.0\n\
          - the MIT licence, which follows.\n\n\

@@ -26,7 +26,7 @@ impl SecretGame {
     /// # Errors
     /// Returns a message if the rules or a level do not load.
     pub(crate) fn load(source: &str, levels: &[String]) -> Result<SecretGame, String> {
-        let game = Game::from_source(source).map_err(|problems| format!("not a game: {problems}"))?;
+        let game = Game::from_source(source).map_err(|problems| format!("not a valid game: {problems}"))?;
         let level = |(number, text): (usize, &String)| {
             let level = game.level(text);
             let level =
@@ -59,7 +59,9 @@ impl SecretGame {
             return Some("the levels are not those of the game under different names".to_owned());
         }
         let is_tossed = root.is_none_or(|root| publishes_sibling(root, one, other));
-        (!is_tossed).then(|| "the coin publishes this sibling: the other game should be withheld".to_owned())
+        (!is_tossed).then(|| {
+            "the coin selects this sibling for publication, so the other game should be withheld".to_owned()
+        })
     }
 }
 
@@ -70,14 +72,15 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
         return Some("the second win begins like the published win".to_owned());
     }
     let is_tossed = root.is_none_or(|root| publishes_win(root, published, second));
-    (!is_tossed).then(|| "the coin publishes this win: the other win should be withheld".to_owned())
+    (!is_tossed)
+        .then(|| "the coin selects this win for publication, so the other win should be withheld".to_owned())
 }
 
 /// Returns a sentence about the problem with a game's pairs in a job's result. `root` is the root seed of the plan.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {
-        return Some("the second wins do not match the number of levels".to_owned());
+        return Some("the number of second wins differs from the number of levels".to_owned());
     }
     let loaded: Option<Vec<(Level, Option<Episode>)>> = levels
         .iter()
@@ -144,7 +147,7 @@ mod tests {
     fn siblings_are_the_game_under_other_names() {
         let same = |_: &mut String, _: &mut Vec<String>| ();
         check(same, true, None);
-        check(same, false, Some("the coin publishes this"));
+        check(same, false, Some("the coin selects this"));
         check(|text, _| text.clear(), true, Some("not a game"));
         check(|_, levels| levels[0] = "?".to_owned(), true, Some("lvl0.txt is not a level of this game"));
         check(|_, levels| levels.clear(), true, Some("the levels are not those"));
@@ -183,7 +186,7 @@ mod tests {
             let (published, withheld) =
                 if publishes_win(root, &one, &other) { (&one, &other) } else { (&other, &one) };
             assert_eq!(flaw(root, published, withheld), None);
-            assert!(flaw(root, withheld, published).unwrap().contains("the coin publishes this"));
+            assert!(flaw(root, withheld, published).unwrap().contains("the coin selects this"));
         }
         assert!(
             flaw(Seed::from_text("x"), &one, &of(&[Up])).unwrap().contains("begins like the published win")

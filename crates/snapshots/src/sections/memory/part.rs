@@ -31,7 +31,7 @@ impl MemoryPart {
             Some(_) => Ok(()),
             None => wrong(
                 "memory",
-                "needs a sealed release, because a public `seed` determines the coins: commit to a secret \
+                "needs a sealed release, because a public `seed` determines the coin tosses: commit to a secret \
                  with `arcade release RECIPE --commit`, or remove the section",
             ),
         }

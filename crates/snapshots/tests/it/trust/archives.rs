@@ -172,7 +172,11 @@ fn entries_that_no_release_has() {
     check(&|e| drop(e.list.remove(6)), level, "witness/lvl0.json: missing");
     check(&|e| e.list.truncate(1), "CARD.json", "missing");
     check(&|e| e.list.clear(), "MANIFEST.json", "");
-    check(&|e| e.list.swap(0, 1), "MANIFEST.json", "the manifest must come first, but `mole/CARD.json` does");
+    check(
+        &|e| e.list.swap(0, 1),
+        "MANIFEST.json",
+        "the manifest must come first, but the first entry is `mole/CARD.json`",
+    );
     check(&|e| e.list.swap(3, 4), "game.vgdl", "out of order");
     check(&|e| e.add(3, "README.md", b"other"), "README.md", "the entry occurs twice in the archive");
     check(&|e| e.add(7, "README.md", b"other"), "README.md", "the entry occurs twice in the archive");
@@ -255,7 +259,11 @@ fn names_that_lead_elsewhere() {
     check(&top("/MANIFEST.json"), "MANIFEST.json", "must come first");
     check(&top("MANIFEST.json"), "MANIFEST.json", "must come first");
     check(&top("a/b/MANIFEST.json"), "MANIFEST.json", "must come first");
-    check(&top("vole/MANIFEST.json"), "MANIFEST.json", "the folder is `vole`, but the release is `mole`");
+    check(
+        &top("vole/MANIFEST.json"),
+        "MANIFEST.json",
+        "the folder is called `vole`, but the release is called `mole`",
+    );
 }
 
 #[test]
@@ -309,7 +317,7 @@ fn ends() {
         &file,
         &compress(&[&tar[..], &[0; 512]].concat()),
         "mole.tar.zst: different from the packed form",
-        "extra data after its end",
+        "extra data after the end of the archive",
     );
     check_bytes(
         &file,
@@ -440,7 +448,7 @@ fn recipes_that_are_wide() {
     wide.manifest.recipe["zeros"] = vec![0; 2_000_000].into();
     wide.manifest.seal_root().expect("distinct paths");
     let error = wide.manifest.to_bytes().expect_err("too wide").to_string();
-    assert!(error.contains("more than 1048576 values in the recipe"), "{error}");
+    assert!(error.contains("the recipe has more than 1048576 values"), "{error}");
 }
 
 #[cfg(unix)]

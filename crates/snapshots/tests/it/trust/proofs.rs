@@ -92,8 +92,11 @@ fn hostile_proofs_are_refused_in_words() {
     let mut none = honest.clone();
     none.files.clear();
     refuse(&written(&none), "the proof lists no files");
-    refuse(&text.replace("\"size\": 7", "\"size\": 100001"), "leaf 2 of 100001, which no release has");
-    refuse(&text.replace("\"index\": 2", "\"index\": 7"), "leaf 7 of 7, which no release has");
+    refuse(
+        &text.replace("\"size\": 7", "\"size\": 100001"),
+        "leaf 2 of 100001, a position that no release has",
+    );
+    refuse(&text.replace("\"index\": 2", "\"index\": 7"), "leaf 7 of 7, a position that no release has");
     refuse(
         &text.replace("\"release\": \"mole\"", "\"release\": \"a/b\""),
         "`a/b` is not a valid release name",

@@ -38,7 +38,7 @@ fn manifest_and_recipe_agree() {
     check(|release| release.manifest.name = "2027-01".into(), &["the `name` differs from the recipe's"]);
     check(
         |release| release.manifest.parent = Some(Digest::of(b"x")),
-        &["the `parent` differs", "`known` lists no release, but there is a parent"],
+        &["the `parent` differs", "`known` lists no release, but the manifest states a parent"],
     );
     check(
         |release| release.manifest.recipe = json!("a pie"),
@@ -278,7 +278,7 @@ fn impossible_card_numbers() {
     };
     of_level("difficulty", json!(1e300), "the difficulty 1000");
     of_level("difficulty", json!(-0.5), "the difficulty -0.5");
-    of_level("columns", json!(7), "the card states a board of 7 by 3, but the board has 6 by 3");
+    of_level("columns", json!(7), "the card states a board of 7 by 3, but the board is 6 by 3");
     of_level("optimal_ticks", json!(4), "the card states a shortest win of 4 ticks, but a witness of 3");
     of_level("optimal_ticks", json!(0), "the card states a shortest win of 0 ticks");
     of_level("witness_score", json!(1e300), "the card states a score of 1000");
@@ -289,7 +289,7 @@ fn impossible_card_numbers() {
         of_level(who, rate, &format!("`{who}` has the interval 0 to 0.5"));
     }
     let ladder = json!({ "rungs": [], "held_out": [], "ease": 1e300, "difficulty": "medium" });
-    of_level("ladder", ladder, "the ease is outside 0 to 1");
+    of_level("ladder", ladder, "the ease is not between 0 and 1");
 }
 
 #[test]
@@ -316,7 +316,7 @@ fn releases_describe_themselves() {
     }
     complains(
         |release| change(release, "CARD.json", |_| "{".to_owned()),
-        &["CARD.json: not a release card: EOF"],
+        &["CARD.json: not a valid release card: EOF"],
     );
     complains(|release| change(release, "CARD.json", |_| "[]".to_owned()), &["not an object"]);
     let with = |key: &'static str, value: serde_json::Value, words: &str| {
@@ -334,7 +334,7 @@ fn releases_describe_themselves() {
     with("games", json!(7), "the card's `games` is 7, but the release has 1");
     with("levels", json!("many"), "the card's `levels` is \"many\", but the release has 1");
     with("canary", json!("x"), "the canary differs from the release's canary");
-    with("more", json!(1), "not a release card: unknown field `more`");
+    with("more", json!(1), "not a valid release card: unknown field `more`");
     with("generators", json!({ "search": 1 }), "the card's `generators` does not match");
     with("goals", json!({}), "the card's `goals` does not match");
     with("difficulty", json!({ "easy": 1 }), "the card's `difficulty` does not match");
@@ -444,7 +444,7 @@ fn no_witness_is_longer_than_an_episode_can_be() {
             "the card states a witness of 2001 ticks, but a witness has 1 to 2000 ticks",
         ],
     );
-    complains(|release| lengthen(release, 4), &["continues after its end in tick 3"]);
+    complains(|release| lengthen(release, 4), &["the episode ends in tick 3, but contains further actions"]);
     let mut release = small("2026-12", None);
     lengthen(&mut release, 2001);
     assert_eq!(verified(&mut release, &Bounds::RELEASE).work, 0);
@@ -461,7 +461,7 @@ fn known_content_matches_the_parent() {
         let problems = verified(&mut release, &Bounds::RELEASE).problems;
         assert!(problems.iter().any(|problem| problem.contains(words)), "{problems:?}");
     };
-    known(json!({}), "`known` lists no release, but there is a parent");
+    known(json!({}), "`known` lists no release, but the manifest states a parent");
     known(json!("nothing"), "`known` is malformed");
     known(
         json!({ "releases": ["2026-12", "2026-12"] }),
@@ -471,7 +471,10 @@ fn known_content_matches_the_parent() {
     let mut orphan = first;
     orphan.manifest.recipe["known"] = json!({ "releases": ["2026-11"] });
     let problems = verified(&mut orphan, &Bounds::RELEASE).problems;
-    assert!(problems.iter().any(|problem| problem.contains("but there is no parent")), "{problems:?}");
+    assert!(
+        problems.iter().any(|problem| problem.contains("but the manifest states no parent")),
+        "{problems:?}"
+    );
 }
 
 /// Withheld solutions cannot be exported, not even as empty lists.

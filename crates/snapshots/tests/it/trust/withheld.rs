@@ -212,9 +212,9 @@ fn lists_bind_what_was_withheld() {
     };
     let item = |path: &str| json!({ "path": path, "size": 1, "digest": Digest::of(b"x") });
     for (path, words) in [
-        ("games/x/lvl0.txt", "`games/x/lvl0.txt` does not belong to this part"),
-        ("held/x/lvl0.json", "`held/x/lvl0.json` does not belong to this part"),
-        (LISTS[1], "does not belong to this part"),
+        ("games/x/lvl0.txt", "`games/x/lvl0.txt` does not belong in this list"),
+        ("held/x/lvl0.json", "`held/x/lvl0.json` does not belong in this list"),
+        (LISTS[1], "does not belong in this list"),
         ("held/siblings/../x", "cannot be in a snapshot"),
         ("held/secret.json", "listed twice"),
     ] {

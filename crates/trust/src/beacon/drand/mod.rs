@@ -138,7 +138,7 @@ impl Network {
         let (key, scheme) = match (self, &proof.chain) {
             (Network::Known(_), Some(_)) => {
                 return Err(format!(
-                    "has a `chain`, but the key of {} is already known: leave it out",
+                    "has a `chain`, but the key of {} is already known: remove `chain`",
                     round.source
                 ));
             }
@@ -203,7 +203,10 @@ fn verifies(
         }
         ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", None) => Sha256::new().chain_update(number),
         ("pedersen-bls-unchained" | "bls-unchained-g1-rfc9380", Some(_)) => {
-            return Err("has a `previous_signature`, but its network is not chained: leave it out".to_owned());
+            return Err(
+                "has a `previous_signature`, but its network is not chained: remove `previous_signature`"
+                    .to_owned(),
+            );
         }
         _ => {
             return Err(format!(

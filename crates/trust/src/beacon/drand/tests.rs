@@ -86,7 +86,7 @@ fn real_rounds_hold() {
     check(&answer("drand quicknet", 1000, QUICKNET_123, none.clone()), Some("not belong to round 1000"));
     check(&answer("drand default", 1000, QUICKNET_1000, previous.clone()), Some("not belong to round 1000"));
     check(&answer("drand quicknet", 72785, DEFAULT_72785, none.clone()), Some("not belong to round 72785"));
-    check(&answer("drand quicknet", 1000, QUICKNET_1000, previous), Some("leave it out"));
+    check(&answer("drand quicknet", 1000, QUICKNET_1000, previous), Some("remove `previous_signature`"));
     check(&answer("drand default", 72785, DEFAULT_72785, none), Some("has no `previous_signature`"));
     let other = json!({ "previous_signature": DEFAULT_72785 });
     check(&answer("drand default", 72785, DEFAULT_72785, other), Some("not belong to round 72785"));
@@ -170,7 +170,10 @@ fn other_networks_are_named_by_their_chain_hash() {
         more["chain"] = serde_json::to_value(&chain).unwrap();
         check(&answer(&source, 9, &signature, more.clone()), None);
         check(&answer(&source, 8, &signature, more.clone()), Some("not belong to round 8"));
-        check(&answer("drand quicknet", 9, &signature, more.clone()), Some("is already known: leave it out"));
+        check(
+            &answer("drand quicknet", 9, &signature, more.clone()),
+            Some("is already known: remove `chain`"),
+        );
         check(&answer("dice", 9, &signature, more.clone()), Some("which only drand networks have"));
         for (field, other) in [
             ("public_key", json!(KNOWN[0].public_key)),
