@@ -12,7 +12,7 @@ impl Digest {
         Digest(*blake3::hash(bytes).as_bytes())
     }
 
-    /// Creates a digest from its 32 bytes, computed elsewhere.
+    /// Creates a digest from 32 bytes that were computed elsewhere.
     pub const fn from_bytes(bytes: [u8; 32]) -> Digest {
         Digest(bytes)
     }

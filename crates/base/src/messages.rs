@@ -31,7 +31,7 @@ impl<P: AsRef<Path> + ?Sized> MessagePath for P {
     }
 }
 
-/// Writes a path without control characters. See [`MessagePath`].
+/// A path that is displayed with its control characters escaped. See [`MessagePath`].
 #[derive(Clone, Copy, Debug)]
 pub struct InMessage<'a>(&'a Path);
 

@@ -12,7 +12,7 @@ macro_rules! named_enum {
         pub enum $named { $($(#[$about])* #[serde(rename = $name)] $variant),* }
 
         impl $named {
-            /// All variants, in order.
+            /// All variants, in the order of declaration.
             pub const ALL: [$named; [$($name),*].len()] = [$($named::$variant),*];
 
             /// Returns the name used in data.

@@ -1,8 +1,8 @@
 //! Random draws for everything that is not part of a game's rules: search, generation, imagined futures.
 //!
 //! ChaCha8 produces the bits. The few distributions that the suite needs are implemented here and pinned by
-//! golden vectors. A library may change the values of its distributions in a minor release, and minted bytes
-//! depend on these values (`docs/lab/decisions/0003-determinism.md`).
+//! golden vectors. Other libraries may change the values of their distributions in a minor release, but
+//! minted bytes depend on such values (`docs/lab/decisions/0003-determinism.md`).
 
 use crate::seed::Seed;
 use rand_chacha::ChaCha8Rng;
@@ -43,7 +43,7 @@ struct Saved {
 
 impl From<Sampler> for Saved {
     fn from(Sampler(stream): Sampler) -> Saved {
-        // Each draw takes two 32-bit words, and nothing takes a single word.
+        // Each draw consumes two 32-bit words, and no method consumes a single word.
         Saved { seed: Seed::from_bytes(stream.get_seed()), drawn: (stream.get_word_pos() / 2) as u64 }
     }
 }
@@ -61,7 +61,7 @@ impl Sampler {
         Sampler(ChaCha8Rng::from_seed(seed))
     }
 
-    /// Returns 64 uniform bits.
+    /// Returns 64 uniformly random bits.
     pub fn bits(&mut self) -> u64 {
         self.0.next_u64()
     }
@@ -146,7 +146,7 @@ impl TryRng for Sampler {
     }
 }
 
-/// Creates the same stream from the bytes of a seed as [`Seed::sampler`].
+/// Creates the stream that [`Seed::sampler`] creates for a seed with the same bytes.
 impl SeedableRng for Sampler {
     type Seed = [u8; 32];
 

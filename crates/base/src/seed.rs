@@ -1,8 +1,8 @@
 //! 256-bit seeds, derived by hashing a path, never by addition.
 //!
 //! For example, two items in a release get their randomness from `seed.child("game", 3)` and
-//! `seed.child("game", 4)`. The two seeds share no stream, so items can be minted in any order, on any number
-//! of threads or machines.
+//! `seed.child("game", 4)`. The two seeds yield different streams, so items can be minted in any order, on
+//! any number of threads or machines.
 
 use crate::digest::NotHex;
 use crate::sampler::Sampler;
@@ -18,7 +18,8 @@ impl Seed {
         Seed(blake3::derive_key("infinite-arcade 1 seed from text", text.as_bytes()))
     }
 
-    /// Derives the seed for part `index` of this seed's work. `purpose` separates different kinds of parts.
+    /// Derives the seed for one part of the work that this seed controls. `purpose` names the kind of part,
+    /// and `index` numbers the parts of that kind.
     pub fn child(self, purpose: &str, index: u64) -> Seed {
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 seed child");
         hasher.update(&self.0);
@@ -33,8 +34,8 @@ impl Seed {
         Sampler::new(self.0)
     }
 
-    /// Returns a 64-bit number for a random number generator with a small seed. The same `context` yields the
-    /// same number.
+    /// Returns a 64-bit number for random number generators that take a small seed. The same `context` always
+    /// yields the same number.
     pub fn number(self, context: &str) -> i64 {
         let bytes = blake3::derive_key(context, &self.0);
         i64::from_le_bytes(bytes[..8].try_into().expect("eight of 32 bytes"))
@@ -94,8 +95,8 @@ mod tests {
         }
     }
 
-    /// Compares a derived seed with a golden vector. If the vector changes, the seeds of all existing
-    /// releases lose their meaning.
+    /// Compares a derived seed with a golden vector. If the vector changes, the seeds of existing releases no
+    /// longer reproduce them.
     #[test]
     fn derivation_is_frozen() {
         let seed = Seed::from_text("starter").child("game", 7);

@@ -1,9 +1,9 @@
-//! Derivations of seeds: a root seed, and the steps from the root to a seed.
+//! The derivation of a seed: its root seed, and the steps from the root to the seed.
 
 use crate::seed::Seed;
 use std::fmt;
 
-/// One call of [`Seed::child`]: its purpose and its index.
+/// The arguments of a call to [`Seed::child`]: the purpose and the index.
 pub type SeedStep = (String, u64);
 
 /// A seed that stores its root and the steps from the root to the seed.

@@ -1,6 +1,6 @@
 //! Values stored as text.
 
-/// Makes serde write values of these types like `Display`, and parse them like `FromStr`.
+/// Implements `Serialize` with `Display`, and `Deserialize` with `FromStr`, for the given types.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! serde_as_text {

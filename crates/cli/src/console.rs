@@ -121,8 +121,8 @@ impl Console {
         Ok(())
     }
 
-    /// Prints a line of JSON for people and programs. Used by subcommands that keep running after their
-    /// answer.
+    /// Prints a line of JSON, even if the user did not request JSON. Used by subcommands that keep running
+    /// after their answer.
     pub(crate) fn line(&self, value: &serde_json::Value) {
         self.json(&value.to_string());
     }
@@ -199,8 +199,7 @@ impl Stopwatch {
     }
 }
 
-/// Prints a note that the program is doing something other than requested, even if the user requested quiet
-/// output.
+/// Prints a note, even in quiet mode, that the program is doing something other than requested.
 pub(crate) fn warn(text: impl Display) {
     let _ = writeln!(io::stderr(), "note: {}", shown(&text.to_string()));
 }

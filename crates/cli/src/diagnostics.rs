@@ -1,11 +1,11 @@
-//! Diagnostics for people and programs.
+//! Diagnostics, formatted for people and for programs.
 
 use crate::failure::{Failure, Placed, Problems};
 use editor::Source;
 use engine::{Diagnostic, Game, Level, line_and_column};
 use std::io::IsTerminal;
 
-/// A text, with its name in messages.
+/// A text and its name in messages.
 #[derive(Clone, Debug)]
 pub(crate) struct Named {
     pub(crate) name: String,

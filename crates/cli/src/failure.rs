@@ -47,7 +47,7 @@ impl fmt::Display for Problems {
 
 impl std::error::Error for Problems {}
 
-/// A problem with its position in a file.
+/// A problem and its position in a file.
 #[derive(Debug, Serialize)]
 pub(crate) struct Placed {
     pub(crate) file: String,
@@ -79,7 +79,7 @@ impl Failure {
         Failure::Environment(error.into().context(what.to_string()))
     }
 
-    /// Returns the failure. If the environment stopped the work, adds advice on how to resume.
+    /// Adds advice on how to resume, if an environment failure stopped the work.
     pub(crate) fn resumable(self, what: &str) -> Failure {
         match self {
             Failure::Environment(error) => Failure::environment(
@@ -90,8 +90,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure to read the file at `path`. Either the user specified a missing file, or the
-    /// system denied access.
+    /// Returns the failure for a file at `path` that cannot be read. Either the user specified a missing
+    /// file, or the system denied access.
     pub(crate) fn read(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
         match error.kind() {
@@ -108,8 +108,8 @@ impl Failure {
         }
     }
 
-    /// Returns the failure to write the file at `path`. Either the user specified an impossible path, or the
-    /// system denied access.
+    /// Returns the failure for a file at `path` that cannot be written. Either the user specified an
+    /// impossible path, or the system denied access.
     pub(crate) fn write(path: &Path, error: io::Error) -> Failure {
         let name = path.in_message();
         match error.kind() {

@@ -48,7 +48,7 @@ struct Cli {
     limits: flags::threads::Limits,
 }
 
-/// Declares the subcommands, in the groups and the order of the help. Each entry contains the variant and the
+/// Declares the subcommands, grouped and ordered as in the help. Each entry contains the variant and the
 /// module with its `Args` and `run`. The short help lists subcommands after `more` by name only.
 macro_rules! verbs {
     ($($group:literal in $folder:ident {

@@ -33,7 +33,7 @@ pub(crate) fn release(place: PathBuf) -> PathBuf {
     }
 }
 
-/// Returns a parser for arguments that specify a release ([`release`]).
+/// Returns a parser for arguments that specify a release (see [`release`]).
 pub(crate) fn release_parser() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().map(release)
 }

@@ -3,8 +3,8 @@
 use itertools::Itertools;
 use std::ffi::OsStr;
 
-/// Returns an argument, quoted for a shell if it contains a space or any other special character. Non-Unicode
-/// text is shown approximately.
+/// Returns an argument, quoted for a shell if it contains a space or any other special character. Invalid
+/// Unicode is replaced with U+FFFD, and NUL is removed.
 pub(crate) fn quoted(argument: impl AsRef<OsStr>) -> String {
     let text = argument.as_ref().to_string_lossy();
     shlex::try_quote(&text).map_or_else(|_| text.replace('\0', ""), |quoted| quoted.into_owned())

@@ -1,4 +1,4 @@
-//! Parsing of the command line, with its error messages.
+//! The parser of the command line, and its error messages.
 
 use crate::Cli;
 use crate::console::{self, Console};
@@ -145,7 +145,7 @@ pub(crate) fn parse(arguments: &[OsString]) -> Result<Cli, u8> {
         }
         let message =
             in_words(&error).or_else(|| other_name(&error, arguments)).or_else(|| developers_task(&error));
-        // Only terminals get colours. Programs read the first line of the document instead.
+        // Colours are printed only on standard error. The JSON document contains the message as plain text.
         let told = message.as_ref().map_or_else(|| error.render().to_string(), Clone::clone);
         match message {
             Some(message) => drop(write!(std::io::stderr(), "{message}")),
@@ -167,8 +167,8 @@ fn without_hidden_verbs(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Words whose subcommand has a different name in arcade. Each row contains a subcommand and the words for
-/// it.
+/// Words from other programs whose subcommand has a different name in arcade. Each row contains a subcommand
+/// and the words for it.
 const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("new", &["create", "make", "init", "init-game", "new-game", "begin", "start"]),
     ("validate", &["check", "test", "lint", "judge"]),
@@ -266,7 +266,7 @@ fn other_name(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
 fn developers_task(error: &clap::Error) -> Option<String> {
     let verb = error.get(ContextKind::InvalidSubcommand)?;
     (verb.to_string() == CONFORMANCE).then(|| {
-        "error: the comparison with the reference is now `cargo xtask conformance`, in a clone of the repository\n".to_owned()
+        "error: the comparison with the reference engine is now `cargo xtask conformance`, in a clone of the repository\n".to_owned()
     })
 }
 

@@ -39,7 +39,7 @@ pub(crate) fn check(path: &Path, inputs: &[&Path]) -> Result<(), Failure> {
     }
 }
 
-/// The kind of file that a path leads to.
+/// The kind of file that a path refers to.
 enum Place {
     /// A regular file, or a path where nothing exists yet.
     File,
@@ -94,8 +94,7 @@ fn is_character_device(found: &Metadata) -> bool {
     }
 }
 
-/// Returns the file that a link leads to, which need not exist. Returns `None` if the link leads back to
-/// itself.
+/// Returns the target of a link, which need not exist. Returns `None` if the link leads back to itself.
 fn target(link: &Path) -> Option<PathBuf> {
     match fs::canonicalize(link) {
         Err(error) if error.kind() == ErrorKind::NotFound => {

@@ -4,8 +4,8 @@
 //! write to the folder can replace a file that is about to be opened with a link to someone else's file, or
 //! with a pipe. Functions whose names end in `no_follow` therefore reject links.
 //!
-//! No function opens a pipe or a device, because opening a pipe can block forever, until something opens its
-//! other end. No function truncates a file.
+//! No function opens a pipe or a device, because opening a pipe blocks until something opens its other end,
+//! which may never happen. No function truncates a file.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]
 
 mod lock;

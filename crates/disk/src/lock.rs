@@ -11,13 +11,13 @@ use std::path::Path;
 pub struct Lock(File);
 
 impl Lock {
-    /// Locks a file, and creates the file if it does not exist. Returns `None` if the lock is already held. A
-    /// file system without locks grants every lock.
+    /// Locks a file, creating it if it does not exist. Returns `None` if the lock is already held. On a file
+    /// system that does not support locks, locking always succeeds.
     ///
     /// # Errors
     /// Returns an error if the path is a link or not a regular file, or if the file system fails.
     pub fn take(path: &Path) -> io::Result<Option<Lock>> {
-        // In the meantime, the current holder may finish and remove the file.
+        // The current holder may finish and remove the file after it has been opened here.
         for _ in 0..16 {
             let file = open_no_follow(path)?;
             match file.try_lock() {
@@ -26,7 +26,7 @@ impl Lock {
                 Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
                 Err(TryLockError::Error(error)) => return Err(error),
             }
-            // The lock is valid only if the path still leads to the locked file.
+            // The lock is valid only if the path still refers to the locked file.
             let held = file.metadata()?;
             if fs::symlink_metadata(path).is_ok_and(|found| is_same_file(&held, &found)) {
                 return Ok(Some(Lock(file)));

@@ -1,4 +1,4 @@
-//! Opens and reads files that others may have prepared.
+//! Opens and reads files that other users may have tampered with.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Read};
@@ -71,7 +71,7 @@ pub fn append_no_follow(path: &Path) -> io::Result<File> {
     open_or_create(path, OpenOptions::new().read(true).append(true))
 }
 
-/// Creates a folder with its parents. If the path already exists, it must not be a link.
+/// Creates a folder and its parents. If the path already exists, it must not be a link.
 ///
 /// # Errors
 /// Returns an error if the path is a link or a file, or if the file system fails.
@@ -124,7 +124,7 @@ fn existing(path: &Path, options: &OpenOptions) -> io::Result<File> {
             return Ok(file);
         }
     }
-    Err(invalid("is replaced again and again"))
+    Err(invalid("keeps being replaced"))
 }
 
 fn regular(found: &Metadata) -> io::Result<()> {
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!(read(&path, 6).unwrap(), None);
     }
 
-    /// Checks that a file can be opened while a different thread keeps replacing it.
+    /// Checks that a file can be opened while another thread keeps replacing it.
     #[test]
     fn replaced_files_are_opened() {
         let home = tempfile::tempdir().unwrap();

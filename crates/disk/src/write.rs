@@ -8,8 +8,8 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile, PersistError};
 
-/// The prefix and the suffix of the name of an unfinished file, which is stored next to its target. Between
-/// them are six letters or digits.
+/// The prefix and the suffix of an unfinished file's name, with six letters or digits between them. An
+/// unfinished file is stored next to its target.
 const UNFINISHED: (&str, &str) = (".arcade-", ".partial");
 
 /// Writes a whole file, replacing any previous file, like [`Disk::write`].
@@ -45,7 +45,7 @@ pub fn create(path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
     disk.sync(parent(path))
 }
 
-/// Creates a folder with its parents, and waits until the new folders' names are on disk.
+/// Creates a folder and its parents, and waits until the new folders' names are on disk.
 ///
 /// # Errors
 ///
@@ -73,7 +73,7 @@ pub fn is_unfinished(name: &OsStr) -> bool {
 }
 
 /// Opens and locks an unfinished file that no process is writing. Returns `None` for any other file. While
-/// the returned file is open, this function does not open it in any other process.
+/// the returned file is open, this function returns `None` for it in every other process.
 pub fn unfinished(path: &Path) -> Option<File> {
     if !is_unfinished(path.file_name()?) {
         return None;
@@ -92,7 +92,7 @@ pub struct Disk {
     left: Option<Cell<usize>>,
 }
 
-/// The access to a new file granted to users other than the owner.
+/// The access that users other than the owner have to a new file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
     /// The same access as to the replaced file, or the system's default for a new file.
@@ -102,7 +102,7 @@ pub enum Access {
 }
 
 impl Disk {
-    /// Creates the machine's real disk, without a simulated power loss.
+    /// Creates a disk that never simulates a power loss.
     pub fn new() -> Disk {
         Disk::default()
     }
@@ -113,15 +113,15 @@ impl Disk {
         Disk { left: Some(Cell::new(steps)) }
     }
 
-    /// Writes a whole file, replacing any previous file. A link or a pipe is replaced, too, without being
-    /// followed or opened.
+    /// Writes a whole file, replacing any previous file. Links and pipes are replaced without being followed
+    /// or opened.
     ///
     /// # Errors
     /// Returns an error if the file system fails. In that case, the previous content is unchanged.
     pub fn write(&self, path: &Path, bytes: &[u8], access: Access) -> io::Result<()> {
         let fresh = self.fill(path, bytes, access)?;
         self.step()?;
-        // If the file could not be moved, dropping it removes it.
+        // If the file cannot be renamed, dropping it removes it.
         fresh.persist(path).map_err(|failed| failed.error)?;
         self.sync(parent(path))
     }
@@ -156,7 +156,7 @@ impl Disk {
         Ok(fresh)
     }
 
-    /// Creates a folder with its parents, and waits until the new folders' names are on disk.
+    /// Creates a folder and its parents, and waits until the new folders' names are on disk.
     ///
     /// # Errors
     ///
@@ -181,7 +181,7 @@ impl Disk {
         sync_folder(folder)
     }
 
-    /// Counts a change to the file system.
+    /// Counts a change to the file system, and fails if the power is lost.
     fn step(&self) -> io::Result<()> {
         let Some(left) = &self.left else { return Ok(()) };
         match left.get().checked_sub(1) {
@@ -189,7 +189,7 @@ impl Disk {
                 left.set(fewer);
                 Ok(())
             }
-            None => Err(io::Error::other("the power is lost, as the test asked")),
+            None => Err(io::Error::other("the power was lost, as the test requested")),
         }
     }
 }
@@ -288,7 +288,7 @@ mod tests {
         fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).expect("set");
         write(&path, b"z", Access::Shared).expect("written");
         assert_eq!(mode(&path), 0o640);
-        // A new file has the permissions that any other new file has.
+        // A new file gets the same permissions as any other new file.
         fs::write(folder.join("plain"), "").expect("written");
         write(&folder.join("new"), b"", Access::Shared).expect("written");
         create(&folder.join("newer"), b"", Access::Shared).expect("written");

@@ -1,4 +1,4 @@
-//! A server's connections, with the time of their last activity and whether the server may close them.
+//! A server's connections, the time of their last activity, and whether the server may close them.
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, IoSlice};
@@ -16,7 +16,7 @@ use tokio::time::{Sleep, sleep};
 /// A server's open connections.
 #[derive(Debug, Default)]
 pub(super) struct Seats {
-    /// A clock that advances with any activity on any connection.
+    /// A logical clock that advances whenever a connection is active.
     heard: AtomicU64,
     pub(super) open: Mutex<BTreeMap<u64, Asker>>,
 }
@@ -104,12 +104,12 @@ impl Drop for Kept {
     }
 }
 
-/// A stream that records when it receives data, and fails if the other end stops reading for too long.
+/// A stream that records its activity, and fails if the other end stops reading for too long.
 pub(super) struct Watched {
     stream: TcpStream,
     asker: Asker,
     write_time: Duration,
-    /// The deadline for the other end to read, if the stream is waiting for it.
+    /// The deadline by which the other end must read, if a write is waiting.
     stalled: Option<Pin<Box<Sleep>>>,
 }
 

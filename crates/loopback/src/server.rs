@@ -13,7 +13,7 @@ use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
-/// The pause after a failure to accept a connection because the system has too many open connections.
+/// The pause after the system has refused a connection because too many are open.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// The number of bytes of a request body that one permit covers.
@@ -54,7 +54,7 @@ pub fn answer(
     answered
 }
 
-/// Serves every connection, within the bounds. At the maximum number of connections, a new connection
+/// Serves every connection, within the bounds. If the maximum number of connections is open, a new connection
 /// replaces the one that has been idle longest. [Kept](crate::Asker::keep) connections are never replaced. If
 /// all connections are kept, new connections wait.
 async fn accept(listener: tokio::net::TcpListener, router: Router, bounds: Bounds) {
@@ -100,7 +100,7 @@ pub enum Unread {
     #[error("the request was cut off: {0}")]
     CutOff(String),
     /// The client was too slow, or no memory for bodies became available in time.
-    #[error("the request was not received in time, or too many others are in progress; try again")]
+    #[error("the request was not received in time, or too many other requests are in progress; try again")]
     Late,
 }
 
@@ -130,7 +130,8 @@ impl Bodies {
         let size = match stated.map(usize::try_from) {
             Some(Ok(size)) if size <= most => size,
             Some(_) => {
-                // A client that is still sending could not read the answer.
+                // A client that is still sending cannot read the response, so the rest of the body is read
+                // first.
                 let _ = tokio::time::timeout(body_time, discard(body, 2 * most)).await;
                 return Err(Unread::TooLarge(most));
             }

@@ -1,4 +1,4 @@
-"""Checks of arguments. A message names the argument, the given value and the expected values."""
+"""Checks of arguments. Each error message names the argument, the given value and the expected values."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def pair(size: tuple[int, int]) -> tuple[int, int]:
 
 
 def did_you_mean(name: str, known: Iterable[str], kind: str = "") -> str:
-    """Returns the end of a message that names the nearest known name, or an empty text if no name is near."""
+    """Returns a suggestion of the nearest known name for the end of a message, or an empty text if no name is near."""
     near = get_close_matches(name, list(known), n=1)
     return f"; did you mean {kind}`{near[0]}`?" if near else ""
 
@@ -66,7 +66,7 @@ def check_games(wanted: Sequence[str] | None, known: Iterable[str], source: str)
     """Checks that every wanted game exists.
 
     Raises:
-        ValueError: with the first unknown name and the nearest known name.
+        ValueError: if a game does not exist. The message contains the first unknown name and the nearest known name.
     """
     known = list(known)
     for name in wanted or ():
@@ -79,7 +79,8 @@ def check_levels(wanted: Sequence[int] | None, known: Iterable[int]) -> None:
     """Checks that every wanted level exists.
 
     Raises:
-        ValueError: with the first unknown level and the numbers of all levels.
+        ValueError: if a level does not exist. The message contains the first unknown level and the numbers of all
+            levels.
     """
     numbers = sorted(set(known))
     for number in wanted or ():

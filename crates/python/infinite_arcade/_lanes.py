@@ -32,7 +32,7 @@ Kind = Literal["planes", "symbols", "rgb", "full"]
 #: The kinds of rewards.
 Reward = Literal["score", "outcome"]
 
-#: One level by its number, several levels, or None for all levels of the game.
+#: The number of one level, the numbers of several levels, or None for all levels of the game.
 Levels = int | Iterable[int] | None
 
 

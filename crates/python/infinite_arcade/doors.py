@@ -255,12 +255,12 @@ def compare(
 
 
 def main() -> None:
-    """Compares the number of logs given on the command line."""
+    """Compares as many logs as the command line requests."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--count", type=int, default=1000, help="logs, at least")
-    parser.add_argument("--max-steps", type=int, default=30, help="the most actions of a log")
-    parser.add_argument("--arcade", type=Path, default=shutil.which("arcade") or "arcade", help="the command line")
-    parser.add_argument("--ray", action="store_true", help="also on a Ray cluster, local unless one is configured")
+    parser.add_argument("--count", type=int, default=1000, help="the minimum number of logs")
+    parser.add_argument("--max-steps", type=int, default=30, help="the maximum number of actions per log")
+    parser.add_argument("--arcade", type=Path, default=shutil.which("arcade") or "arcade", help="the path of arcade")
+    parser.add_argument("--ray", action="store_true", help="also use a Ray cluster, which is local by default")
     arguments = parser.parse_args()
     from .games import corpus
 
@@ -278,7 +278,7 @@ def main() -> None:
             )
         total = {door: total.get(door, 0) + count for door, count in found.items()}
         print(", ".join(f"{door} {count}" for door, count in total.items()), flush=True)
-    print("equal state hashes, scores and outcomes")
+    print("all state hashes, scores and outcomes are equal")
 
 
 if __name__ == "__main__":

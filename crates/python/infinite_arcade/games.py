@@ -27,8 +27,8 @@ _NOTEBOOK_PIXELS = 480
 class State:
     """The state of an episode.
 
-    A state is a value. A :meth:`copy` is independent of the original, and the same actions lead both states to the
-    same hashes. A pickled state consists of the texts of game and level, the seed and the actions. To unpickle it,
+    A state is a value. A :meth:`copy` is independent of the original, and the same actions lead both states to the same
+    hashes. A pickled state consists of the texts of the game and the level, the seed and the actions. To unpickle it,
     the actions are replayed, at a cost of one forward-model call per tick.
     """
 
@@ -172,7 +172,7 @@ class State:
 
 
 class Level:
-    """A level of a particular game. A pickled level consists of the texts of game and level."""
+    """A level of a particular game. A pickled level consists of the texts of the game and the level."""
 
     __slots__ = ("_native", "number", "optimal_ticks")
 
@@ -321,7 +321,7 @@ class Game:
         """
         folder = Path(folder)
         if folder.exists() and any(folder.iterdir()):
-            raise FileExistsError(f"{folder}: the folder is not empty; pass an empty or a new folder")
+            raise FileExistsError(f"{folder}: the folder is not empty; pass a new or empty folder")
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "game.vgdl").write_text(self.source, "utf-8")
         for number, level in enumerate(self.levels):
@@ -356,7 +356,7 @@ class Game:
 
     @property
     def symbols(self) -> dict[str, str]:
-        """The character that represents each visible type on boards of symbols. Floors have ``.``."""
+        """The character that represents each visible type on boards of symbols. Floors are shown as ``.``."""
         return dict(self._native.symbols)
 
     @property
@@ -466,7 +466,7 @@ def game_of(game: str | Path | Game) -> Game:
     return game if isinstance(game, Game) else load(game)
 
 
-#: The parts of a pickled level: source, name and mode of the game, then text and name of the level.
+#: The parts of a pickled level: the source, name and mode of the game, and the text and name of the level.
 _Parts = tuple[str, str, bool, str, str]
 
 

@@ -14,9 +14,9 @@ There are four kinds of observations:
 - ``symbols`` is ``[rows][columns]``, uint8, with the ASCII character of the uppermost sprite.
   ``env.unwrapped.game.symbols`` lists the characters.
 - ``rgb`` is ``[rows × cell][columns × cell][3]``, uint8, drawn by the renderer of the suite.
-- ``full`` is a dictionary of ``planes`` and ``status``. ``status`` is a float32 vector with what planes do not show: the
-  facing and health of the avatar, the ticks left, and the amounts of held resources. ``env.unwrapped.status_names``
-  lists its numbers. The ticks left count down to the end of the episode, by the limit of the game or by ``max_steps``.
+- ``full`` is a dictionary of ``planes`` and ``status``. ``status`` is a float32 vector with what planes do not show:
+  the facing and health of the avatar, the ticks left, and the amounts of held resources. ``env.unwrapped.status_names``
+  lists its numbers. The ticks left count down to the limit of the game or to ``max_steps``, whichever comes first.
 
 All boards have the size of the largest level of the game, whichever levels are played, or the ``size`` that is passed.
 Smaller levels are at the top left. Action ``i`` is ``game.actions[i]``. An action that is not available in a state
@@ -26,9 +26,9 @@ If an environment has several levels, each episode draws its level from its seed
 selected with ``reset(options={"level": 4})``, where 4 is the number of the level.
 
 ``reset(seed=s)`` derives the seed of the game's randomness from ``s`` by hashing. Each further ``reset()`` starts the
-next episode of ``s``. In a vector, ``reset(seed=[…])`` gives each environment its own seed, with which it plays the
-same episodes as a single environment. If the seed is a single number, environment ``i`` gets a seed derived from it,
-``child("lane", i)``.
+next episode derived from ``s``. In a vector, ``reset(seed=[…])`` gives each environment its own seed, with which it
+plays the same episodes as a single environment. If the seed is a single number, environment ``i`` gets a seed derived
+from it, ``child("lane", i)``.
 
 ``info["seed"]`` is the seed of the episode. To replay the episode, start its level with this seed (``Level.start``) and play
 its actions.
@@ -254,7 +254,7 @@ class GameVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
             max_episode_steps: the name of ``max_steps`` in :func:`gymnasium.make_vec`.
             reward: ``score`` or ``outcome``.
             autoreset_mode: when the next episode starts after one has finished.
-            threads: the maximum number of threads, or 0 for all cores. Fewer than 256 environments need one thread.
+            threads: the maximum number of threads, or 0 for all cores. Fewer than 256 environments use a single thread.
                 The number does not affect results.
             copy: return copies of observations.
             render_mode: ``rgb_array`` or ``ansi``.
@@ -337,8 +337,8 @@ class GameVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         the numbers of their levels, one per environment, or a single number.
 
         Raises:
-            ValueError: if there is no such option, or the environment does not have a level, or unless there is exactly
-                one mask entry, one seed and one level per environment.
+            ValueError: if an option or a level does not exist, or if there is not exactly one mask entry, one seed and
+                one level per environment.
         """
         options = _checked(options, ("level", "seed", "reset_mask"))
         native, lanes = self._lanes.native, self._lanes
@@ -392,7 +392,7 @@ class GameVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         if not self._has_started:
             raise gymnasium.error.ResetNeeded("no episode has been started: call reset()")
         if self._mode == AutoresetMode.DISABLED and (lanes.terminated.any() or lanes.truncated.any()):
-            raise gymnasium.error.ResetNeeded("episodes are over: call reset() with their `reset_mask`")
+            raise gymnasium.error.ResetNeeded("some episodes are over: call reset() with a `reset_mask` that selects them")
         actions = np.asarray(actions)
         if actions.shape != (self.num_envs,) or actions.dtype.kind not in "iu":
             found = f"an array of {actions.dtype} with the shape {actions.shape}"

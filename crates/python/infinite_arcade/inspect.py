@@ -62,7 +62,7 @@ __all__ = [
     "unfinished", "win",
 ]
 
-#: Names or numbers, as a list or as text with commas. Inspect passes ``-T games=a,b`` as a list of texts.
+#: Names or numbers, as a list or as comma-separated text. Inspect passes ``-T games=a,b`` as a list of texts.
 Names = str | list[str] | None
 Numbers = int | str | list[int] | list[str] | None
 
@@ -101,8 +101,8 @@ def snapshot(
 
     Args:
         path: the folder of the release, whose digests are checked first.
-        games: the IDs of the only games to include.
-        levels: the numbers of the only levels to include.
+        games: the IDs of the games to include; by default all games.
+        levels: the numbers of the levels to include; by default all levels.
         track: ``told``, ``masked``, ``discover`` or ``vision`` (``arcade docs tracks``).
         commit: the number of actions that the player commits to per decision, or ``all`` for the whole episode.
         mode: ``zero-shot`` or ``contextual``.
@@ -184,7 +184,7 @@ def questions(
     Args:
         path: the folder of the release, whose digests are checked first.
         count: the number of questions of each kind.
-        kinds: the only kinds of questions to include (``arcade docs questions``).
+        kinds: the kinds of questions to include (``arcade docs questions``); by default all kinds.
         seed: the text from which the questions are derived.
     """
     release = open_snapshot(path)
@@ -259,8 +259,8 @@ def play(journal: str | None = None, answer: Answer | None = None) -> Solver:
 
     Args:
         journal: a folder for the logs of episodes, which retries continue.
-        answer: an asynchronous function that answers a request, by default with one call of the model. An agent of your
-            own, with tools or several calls per action, is such a function.
+        answer: an asynchronous function that answers a request, by default with one call of the model. An agent with
+            tools, or with several calls per action, can be passed as such a function.
     """
 
     async def solve(state: TaskState, generate: Generate) -> TaskState:
@@ -328,7 +328,7 @@ def _explained(episode: dict[str, Any]) -> str:
 
 @scorer(metrics=[mean(), stderr(cluster="game")])
 def points() -> Scorer:
-    """Scores the mean score of the games, by replaying the logs. An unfinished episode has the score so far."""
+    """Scores the mean score of the games, by replaying the logs. An unfinished episode counts with its score so far."""
 
     async def score(state: TaskState, target: Target) -> Score:
         counted = [one for one in _replayed(state) if not one["practice"]]
@@ -349,8 +349,8 @@ def count() -> Metric:
 
 @scorer(metrics=[count(), mean()])
 def unfinished() -> Scorer:
-    """Scores 1 if an episode of the sample is unfinished, and 0 otherwise. Limits and solvers of your own leave
-    episodes unfinished.
+    """Scores 1 if an episode of the sample is unfinished, and 0 otherwise. Limits and custom solvers can leave episodes
+    unfinished.
     """
 
     async def score(state: TaskState, target: Target) -> Score:

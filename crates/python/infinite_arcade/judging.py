@@ -34,7 +34,8 @@ def validate(level: Level, *, budget: int = 1_000_000, seed: Seed = "validate") 
         evidence. ``witness`` is the winning episode or None.
 
     Raises:
-        KeyboardInterrupt: soon after Ctrl-C. Like all long calls of the package, the call does not wait for its end.
+        KeyboardInterrupt: soon after Ctrl-C. Like all long calls of the package, this call is interrupted before it has
+            finished.
     """
     at_least(1, budget=budget)
     return _object(_native.validate(level._native, budget=budget, seed=seed_text(seed)))
@@ -55,7 +56,7 @@ def generate_levels(
     """Generates levels that resemble those of the game. The same arguments give the same levels.
 
     The methods ``search`` and ``evolutionary`` verify every level: it meets the criteria of a release, and a winning
-    episode is its witness. The method ``constructive`` takes some milliseconds per level and verifies none, so that
+    episode is its witness. The method ``constructive`` takes a few milliseconds per level and verifies no level, so
     some of its levels cannot be won. With ``verified=True``, it draws levels until they pass.
 
     Args:
@@ -110,7 +111,7 @@ def generate_games(
     levels: int = 5,
     seed: Seed = "games",
 ) -> list[dict[str, Any]]:
-    """Generates games with levels, each of which a planner has won. A game takes some minutes on one core.
+    """Generates games with levels, each of which a planner has won. A game takes a few minutes on one core.
 
     Args:
         kinds: the kinds of hand-written kernels from which games are drawn, such as ``shooter``. If empty, rules are
@@ -128,8 +129,8 @@ def generate_games(
 
     Raises:
         ArcadeError: if no game was accepted.
-        ValueError: if there is no such method or kind, or if a different method than ``constructive`` is given for
-            games of kernels, or a number is too small.
+        ValueError: if there is no such method or kind, if a method other than ``constructive`` is given for games of
+            kernels, or if a number is too small.
         KeyboardInterrupt: soon after Ctrl-C.
     """
     at_least(1, count=count, levels=levels)

@@ -35,15 +35,15 @@ def is_right(question: Mapping[str, Any], text: str) -> bool:
 
 
 class Questions:
-    """A sequence of questions, in the style of a dataset of reasoning-gym: an entry has ``question``, ``answer`` and
+    """A sequence of questions, in the style of a reasoning-gym dataset: an entry has ``question``, ``answer`` and
     ``metadata``, and :meth:`score_answer` scores an answer to it.
 
-    The same games and arguments give the same questions. There are fewer questions if the levels provide no more.
+    The same games and arguments give the same questions. There are fewer questions if the levels do not provide enough.
 
     Args:
         games: the games from whose levels the questions are drawn.
         count: the number of questions of each kind.
-        kinds: the only kinds to draw, from :data:`KINDS`.
+        kinds: the kinds to draw, from :data:`KINDS`; by default all kinds.
         seed: the text from which the questions are derived.
     """
 

@@ -74,7 +74,7 @@ def mint(recipe: str | Path, out: str | Path, *, shards: int, jobs: int | None =
         recipe: the name of a recipe embedded in the package, or a .toml file on this machine.
         out: the folder for the release.
         shards: the number of shards.
-        jobs: the number of threads per task, by default one. Each thread has its own reserved core.
+        jobs: the number of threads per task, by default one. One core is reserved for each thread.
 
     Raises:
         ArcadeError: if the recipe cannot be minted, on this machine or on a node.
@@ -111,7 +111,7 @@ def evaluate(
         games: the IDs of the games, in the order of the subject.
         arguments: further flags of ``arcade evaluate``, such as ``["--player", "mcts:100", "--runs", "5"]``.
         arcade: the path of the ``arcade`` program on every node.
-        jobs: the number of concurrent episodes per task, by default one. Each episode has its own reserved core.
+        jobs: the number of concurrent episodes per task, by default one. One core is reserved for each episode.
 
     Raises:
         ArcadeError: if ``arcade`` fails, on this machine or on a node. The message is that of ``arcade``.

@@ -1,4 +1,4 @@
-"""Results, cards and releases as tables: Arrow, and pandas or Polars over the same buffers.
+"""Results, cards and releases as Arrow tables, and as pandas or Polars data frames over the same buffers.
 
 >>> table = episodes(["results/mcts", "results/mini"])       # a pyarrow.Table
 >>> frame = to_polars(table)                                 # no copy

@@ -33,9 +33,9 @@ class ArcadeConfig(vf.TasksetConfig):
     source: str = "corpus"
     """A release's folder, a game's file or folder, the name of a corpus game, or ``corpus``."""
     games: list[str] | None = None
-    """Only these games, by ID."""
+    """The IDs of the games to include, or None for all games."""
     levels: list[int] | None = None
-    """Only these levels, by number."""
+    """The numbers of the levels to include, or None for all levels."""
     runs: int = 1
     """The number of episodes per level."""
     seed: str | int = "evaluate"
@@ -60,7 +60,7 @@ class ArcadeTask(vf.Task[ArcadeData, vf.State, vf.TaskConfig]):
 
     @property
     def key(self) -> str:
-        """The identity of the task. Unlike verifiers' own key, it does not depend on the other tasks."""
+        """The identity of the task. Unlike the default key of verifiers, it does not depend on the other tasks."""
         return str(task_key(self.data.model_dump(mode="json", exclude_none=True, exclude={"idx"})))
 
 

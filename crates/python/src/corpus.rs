@@ -33,7 +33,7 @@ pub(crate) fn games_of_files(names: Vec<String>) -> Vec<GameFiles> {
     games.into_iter().map(|game| (game.source, game.levels)).collect()
 }
 
-/// Returns a game's levels with their numbers, given the file names in its folder.
+/// Returns a game's levels and their numbers, given the file names in its folder.
 #[pyfunction]
 pub(crate) fn levels_of_files(source: &str, names: Vec<String>) -> Vec<(usize, String)> {
     engine::layout::levels(source, names.iter().map(String::as_str))

@@ -25,7 +25,7 @@ create_exception!(
     infinite_arcade,
     VgdlError,
     PyValueError,
-    "A game or level does not compile. It prints like the messages of `arcade`; `diagnostics` has the problems as dictionaries."
+    "A game or level does not compile. The exception prints like the messages of `arcade`; `diagnostics` contains the problems as dictionaries."
 );
 
 /// Converts an error to an [`ArcadeError`] with the same message.

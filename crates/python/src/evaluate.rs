@@ -45,13 +45,13 @@ struct Order {
     reasks: u32,
 }
 
-/// A message from the thread that plays to Python.
+/// A message to Python from the thread that plays the episodes.
 enum Report {
     Request(ChatRequest),
     Done(Result<Vec<Played>, String>),
 }
 
-/// An episode that has ended, with its log.
+/// An episode that has ended, and its log.
 struct Played {
     level: usize,
     level_digest: String,

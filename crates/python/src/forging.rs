@@ -64,7 +64,8 @@ pub(crate) fn generate_levels(
     let (game, seed) = (game.clone(), Seed::from_text(seed));
     let method: Method = method.parse().map_err(invalid)?;
     let difficulty = difficulty.map(str::parse).transpose().map_err(invalid)?;
-    // Levels are judged if an order has to be measured, and every judged win lasts at least one tick.
+    // A minimum length makes the generator judge every level. One tick excludes no level, because every win
+    // lasts at least one tick.
     let min_solution = min_solution.or(verified.then_some(1));
     interruptible(py, move |interrupt| {
         let game = &game.0.game;

@@ -22,7 +22,7 @@ pub(crate) struct Rules {
     pub(crate) analysis: Analysis,
     pub(crate) looks: Looks,
     pub(crate) symbols: Symbols,
-    /// The actions that can have an effect, with doing nothing first.
+    /// The actions that can have an effect, starting with doing nothing.
     pub(crate) actions: Vec<Action>,
 }
 

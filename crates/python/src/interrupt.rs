@@ -1,4 +1,4 @@
-//! Long calls that Ctrl-C interrupts.
+//! Long-running calls that Ctrl-C can interrupt.
 
 use crate::errors::failed;
 use forge::Progress;
@@ -13,7 +13,7 @@ use std::time::Duration;
 
 /// The time between two checks for a signal.
 const PAUSE: Duration = Duration::from_millis(100);
-/// The stack of the thread that works, in bytes. It equals the usual stack of a main thread.
+/// The stack size of the working thread, in bytes. It equals the usual stack size of a main thread.
 const STACK: usize = 8 << 20;
 
 /// A flag that is set once the result of a call is no longer needed.
@@ -50,9 +50,9 @@ impl snapshots::mint::Progress for Interrupt {
     }
 }
 
-/// Runs `work` on a thread of its own, while the calling thread waits without the interpreter lock and checks
-/// for signals. After a signal such as Ctrl-C, the call ends at once with the signal's exception. The work ends
-/// when it next checks the [`Interrupt`], or with the process.
+/// Runs `work` on a separate thread, while the calling thread waits without the interpreter lock and checks for
+/// signals. After a signal such as Ctrl-C, the call immediately raises the signal's exception. The work ends when it
+/// next checks the [`Interrupt`], or with the process.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Interrupt) -> PyResult<T> + Send + 'static,

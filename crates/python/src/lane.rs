@@ -1,4 +1,4 @@
-//! A lane: one episode of a game after another, with its observations.
+//! A lane, which plays one episode of a game after another, and its observations.
 
 use crate::errors::invalid;
 use crate::game::{Game, Level, OUTCOMES, Rules, outcome_name, seed_of};
@@ -8,7 +8,7 @@ use base::Seed;
 use engine::{Chance, Drawn, Outcome, Planes};
 use pyo3::prelude::*;
 
-/// The text of the seed of lanes that have not been seeded.
+/// The text from which the seed of an unseeded lane is derived.
 const UNSEEDED: &str = "unseeded";
 
 /// The rule that determines when a lane whose episode has ended starts a new one.
@@ -38,7 +38,7 @@ pub(crate) enum Sight {
 pub(crate) struct Setting {
     pub(crate) game: Game,
     pub(crate) levels: Vec<Level>,
-    /// The first states of the levels.
+    /// The initial states of the levels.
     pub(crate) roots: Vec<engine::State>,
     pub(crate) planes: Planes,
     pub(crate) status: Status,
@@ -51,11 +51,11 @@ pub(crate) struct Setting {
     pub(crate) autoreset: Autoreset,
 }
 
-/// A lane, with its current episode.
+/// A lane and its current episode.
 pub(crate) struct Lane {
     pub(crate) state: engine::State,
     pub(crate) root: usize,
-    /// The level that the next episode must play.
+    /// The level selected for the next episode, or `None` to draw it.
     pub(crate) chosen: Option<usize>,
     pub(crate) seed: Seed,
     /// The number of episodes started with this seed before the current one.
@@ -178,7 +178,7 @@ impl Setting {
         }
     }
 
-    /// Returns `true` if a saved lane has a level and actions of this setting.
+    /// Returns `true` if this setting has the level and the actions of a saved lane.
     pub(crate) fn fits(&self, saved: &SavedLane) -> bool {
         let known = self.rules().actions.len();
         saved.0 < self.roots.len() && saved.4.iter().all(|&action| usize::from(action) < known)
@@ -293,7 +293,7 @@ impl Setting {
         self.status.write(self.rules(), &lane.state, steps_left, out);
     }
 
-    /// Returns the end of a lane's current episode.
+    /// Returns the score, outcome and status of a lane's current episode.
     pub(crate) fn end_of(&self, lane: &Lane) -> Last {
         let mut status = vec![0.0; self.status.len()];
         self.write_status(lane, &mut status);
@@ -344,8 +344,8 @@ pub(crate) fn check_size(levels: &[Level], (columns, rows): (usize, usize)) -> P
     }
 }
 
-/// Returns the planes in drawing order with their characters, without floors. Returns `None` if a character
-/// is not ASCII.
+/// Returns the planes and their characters in drawing order, without floors. Returns `None` if a character is
+/// not ASCII.
 pub(crate) fn characters(rules: &Rules, planes: &Planes) -> Option<Vec<(usize, u8)>> {
     let order = rules.game.drawing_order();
     let place = |stype: engine::SpriteType| order.iter().position(|&other| other == stype.0);

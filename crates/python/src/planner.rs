@@ -14,7 +14,7 @@ pub(crate) fn planner_names() -> Vec<&'static str> {
     PLANNERS.to_vec()
 }
 
-/// The number of forward-model calls from which a plan may take a noticeable time.
+/// The number of forward-model calls at which planning starts to take a noticeable time.
 const QUICK: u64 = 100_000;
 
 /// A planner with its own random streams.
@@ -26,7 +26,7 @@ pub(crate) struct Planner {
 }
 
 impl Planner {
-    /// Plans with a copy of the player, so that an interrupted plan leaves the planner as it was.
+    /// Plans with a copy of the player, so that an interrupted plan leaves the planner unchanged.
     fn plan_slowly(&mut self, py: Python<'_>, state: &State, count: u64) -> PyResult<(Vec<Action>, u64)> {
         let (game, state, mut player) = (state.rules().clone(), state.state.clone(), self.player.clone());
         let (player, plan) = interruptible(py, move |_| {

@@ -45,12 +45,12 @@ impl State {
         State { level, state, history: History(vec![(seed, actions)]) }
     }
 
-    /// The compiled game of the state.
+    /// Returns the compiled game of the state.
     pub(crate) fn rules(&self) -> &engine::Game {
         &self.level.game.0.game
     }
 
-    /// Plays one tick. A finished state stays as it is.
+    /// Plays one tick. Does nothing if the episode is over.
     fn advance(&mut self, action: Action) -> Outcome {
         if !self.state.is_over() {
             self.history.record(action);
@@ -190,7 +190,7 @@ impl State {
         render::rows(&self.level.game.0.looks, &self.level.game.0.symbols, &self.state)
     }
 
-    /// Returns the board, tick, score, holdings and legend as text.
+    /// Returns the board, the tick, the score, the held resources and the legend as text.
     fn full_text(&self) -> String {
         render::text(&self.level.game.0.looks, &self.level.game.0.symbols, &self.state)
     }

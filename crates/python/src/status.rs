@@ -21,7 +21,7 @@ impl Status {
         Status { resources: rules.analysis.resources().iter().map(name).collect() }
     }
 
-    /// Returns the number of numbers.
+    /// Returns the length of the status.
     pub(crate) fn len(&self) -> usize {
         COMMON.len() + self.resources.len()
     }
@@ -32,8 +32,8 @@ impl Status {
         COMMON.iter().map(|&name| name.to_owned()).chain(held).collect()
     }
 
-    /// Writes a state's numbers. Without the time limit of the game, `steps_left` steps would remain. Cost:
-    /// O(resources).
+    /// Writes a state's numbers. The game's time limit and `steps_left` both bound the number of remaining
+    /// ticks. Cost: O(resources).
     pub(crate) fn write(&self, rules: &Rules, state: &State, steps_left: u64, out: &mut [f32]) {
         out.fill(0.0);
         let (common, held) = out.split_at_mut(COMMON.len());

@@ -11,8 +11,8 @@ import pytest
 
 ROOT = Path(__file__).parents[3]
 
-# `python -m pytest` puts this folder before the installed packages. An installed wheel has the extension, the folder
-# does not.
+# `python -m pytest` puts this folder before the installed packages. An installed wheel has the extension, but the
+# folder does not.
 if not any((ROOT / "crates/python/infinite_arcade").glob("_native*.so")):
     sys.path[:] = [entry for entry in sys.path if Path(entry).resolve() != ROOT / "crates/python"]
 
@@ -50,7 +50,7 @@ def arcade() -> Path:
         pytest.skip("arcade has not been built: cargo build --release")
     version = subprocess.run([built[0], "--version"], capture_output=True, text=True, check=True)
     if ia.__version__ not in version.stdout:
-        pytest.skip(f"{built[0]} is of another version")
+        pytest.skip(f"{built[0]} has a different version")
     return built[0]
 
 

@@ -107,7 +107,8 @@ def test_episodes_are_truncated(nut: ia.Game) -> None:
 @pytest.mark.parametrize("mode", list(AutoresetMode))
 @pytest.mark.parametrize(("name", "observation"), [("heath-fire", "planes"), ("hailglass", "symbols"), ("great-yawn", "rgb")])
 def test_vectors_play_what_single_environments_play(mode: AutoresetMode, name: str, observation: str) -> None:
-    """The vector behaves like Gymnasium's own vector of single environments, in every mode and on all levels."""
+    """Checks that the vector behaves like Gymnasium's vector of single environments, in every mode and on all levels.
+    """
     count, game = 5, ia.load(name)
     make = lambda: arcade.GameEnv(game, observation=observation, max_steps=12)
     single = SyncVectorEnv([make] * count, autoreset_mode=mode)
@@ -159,7 +160,7 @@ def test_threads_change_nothing(observation: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(ia.corpus()))
 def test_boards_are_kept_up_to_date(name: str) -> None:
-    """Boards drawn over earlier boards equal boards drawn from scratch, in lanes of all levels."""
+    """Checks that boards drawn over earlier boards equal boards drawn from scratch, in lanes of all levels."""
     envs = arcade.GameVectorEnv(name, num_envs=10, autoreset_mode=AutoresetMode.SAME_STEP, threads=1, copy=False)
     rng = np.random.default_rng(1)
     observations, _ = envs.reset(seed=1)
@@ -243,7 +244,9 @@ def test_every_level_is_played() -> None:
 
 
 def test_an_episode_of_one_level_is_that_of_many() -> None:
-    """The level is drawn from the episode's seed, and the randomness of the episode does not depend on the draw."""
+    """Checks that the level is drawn from the episode's seed, and that the episode's randomness does not depend on the
+    draw.
+    """
     several = arcade.GameEnv("heath-fire")
     _, info = several.reset(seed=11)
     one = arcade.GameEnv("heath-fire", info["level"])
@@ -370,7 +373,7 @@ def test_importing_the_package_registers_the_environments() -> None:
 
 
 def test_seeds_are_derived_as_before() -> None:
-    """Recorded seeds keep their episodes, whatever levels the environment has."""
+    """Checks that recorded seeds give the same episodes as before, whatever levels the environment has."""
     for levels in (None, 0):
         env = arcade.GameEnv("heath-fire", levels)
         found = [env.reset(seed=7)[1]["seed"], env.reset()[1]["seed"]]

@@ -98,8 +98,8 @@ class Server(BaseHTTPRequestHandler):
 
 @pytest.mark.parametrize("track", [None, "masked", "discover"])
 def test_logs_are_those_of_the_command_line(track: str | None, arcade: Path, tmp_path: Path) -> None:
-    """The same answers give the same log line by line, with `arcade evaluate` and with Inspect. Prompts, classes,
-    steps and hashes are equal.
+    """Checks that the same answers give the same log, line by line, with `arcade evaluate` and with Inspect. Prompts,
+    classes, steps and hashes must be equal.
     """
     script = ["ACTION: left", "I do not know", "**Action:** right", "ACTION: right", "ACTION: jump", "ACTION: left"]
 
@@ -217,7 +217,9 @@ LIMITS = [{"token_limit": 15}, {"message_limit": 5}, {"time_limit": 2}]
 
 @pytest.mark.parametrize("limit", LIMITS, ids=lambda limit: next(iter(limit)))
 def test_every_sample_counts_within_a_limit(limit: dict[str, int], tmp_path: Path) -> None:
-    """The quick level is won, the others meet the limit. They are unfinished, so they are not won."""
+    """Checks that the quick level is won, and that the other levels reach the limit, so they are unfinished and not
+    won.
+    """
 
     def answer(messages: list[ChatMessage]) -> str:
         is_quick = "S.n\n" in messages[1].text

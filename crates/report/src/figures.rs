@@ -4,7 +4,7 @@ use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
 use statistics::{Z95, bootstrap, quantile, wilson};
 
-/// A fraction of a set of items, with its confidence interval.
+/// A fraction of a set of items, and its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Share {
@@ -56,7 +56,7 @@ pub struct Mean {
 const RESAMPLES: usize = 2000;
 
 impl Mean {
-    /// Returns the mean of the given values, one per item, or `None` without values.
+    /// Returns the mean of the given values, one per item, or `None` if there are no values.
     pub fn over(item: &'static str, values: &[f64]) -> Option<Mean> {
         let mean = |sample: &[f64]| sample.iter().sum::<f64>() / sample.len() as f64;
         let interval = bootstrap(values, mean, RESAMPLES, 0.95, [0; 32])?;
@@ -94,7 +94,7 @@ pub struct Quantiles {
 }
 
 impl Quantiles {
-    /// Returns the quantiles of the given values, or `None` without values.
+    /// Returns the quantiles of the given values, or `None` if there are no values.
     pub fn of(values: &[f64]) -> Option<Quantiles> {
         let at = |share| quantile(values, share);
         Some(Quantiles {

@@ -1,6 +1,6 @@
 //! The data model shared by all reports: figures with intervals, and tables with one renderer per format.
 //!
-//! A pure function computes each report on levels, games or evaluations, and returns it as these types.
+//! Each report on levels, games or evaluations is computed by a pure function that returns these types.
 //! [`SetReport`] is written as JSON, and [`Table`] as Markdown, CSV and LaTeX. The `arcade` binary builds the
 //! pages.
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]

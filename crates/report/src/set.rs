@@ -52,7 +52,7 @@ pub struct Figure {
 /// A figure's value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A fraction of a set of items, with its interval.
+    /// A fraction of a set of items, and its interval.
     Share(Share),
     /// A mean between 0 and 1.
     Mean(Mean),
@@ -182,13 +182,13 @@ impl Section {
         self.data(key, &share).figure(key, name, Value::Share(share))
     }
 
-    /// Adds a mean between 0 and 1, if any.
+    /// Adds a mean between 0 and 1, if there is one.
     #[must_use]
     pub fn mean(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Mean))
     }
 
-    /// Adds a mean that may be negative, if any.
+    /// Adds a mean that may be negative, if there is one.
     #[must_use]
     pub fn gain(self, key: &'static str, name: &str, mean: Option<Mean>) -> Section {
         self.data(key, &mean).known(key, name, mean.map(Value::Gain))
@@ -207,7 +207,8 @@ impl Section {
         self.data(key, &count).figure(key, name, Value::Count(count))
     }
 
-    /// Adds the number of times that each item occurs. If a total is given, adds fractions instead of counts.
+    /// Adds the number of times that each item occurs. If a total is given, the page shows fractions of it
+    /// instead of the counts.
     #[must_use]
     pub fn tally(self, key: &str, name: &str, counts: &BTreeMap<String, u64>, of: Option<u64>) -> Section {
         counts.iter().fold(self.data(key, counts), |section, (thing, &count)| {

@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// A table. Every row has one cell per column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Table {
-    /// The file name without its extension: letters, digits and hyphens.
+    /// The file name without its extension, which consists of letters, digits and hyphens.
     pub id: String,
     /// The table title.
     pub title: String,
@@ -41,7 +41,7 @@ pub enum TableCell {
         /// The number of decimal places.
         digits: usize,
     },
-    /// A number with its confidence interval.
+    /// A number and its confidence interval.
     Interval {
         /// The value of the number.
         value: f64,
@@ -314,8 +314,8 @@ fn spelt_out(text: &str, is_spelt: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Formats text as a CSV field on one line ([`visible`]). A leading apostrophe prevents spreadsheets from
-/// interpreting the text as a formula (OWASP, *CSV Injection*).
+/// Formats text as a CSV field on a single line (see [`visible`]). A leading apostrophe prevents spreadsheets
+/// from interpreting the text as a formula (OWASP, *CSV Injection*).
 pub fn in_csv(text: &str) -> String {
     let starts =
         |text: &str| text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠']);
@@ -375,8 +375,8 @@ mod tests {
         check("a\n# b\u{1b}[2J", "a\\\\n# b\\\\u{1b}\\[2J");
     }
 
-    /// Names from files neither break lines nor change the direction of text, and are not interpreted by
-    /// terminals.
+    /// Checks that names from files neither break lines nor change the direction of text, and are not
+    /// interpreted by terminals.
     #[test]
     fn invisible_characters_are_spelt_out_everywhere() {
         let name = "a\nb\u{1b}[2J\u{9b}\u{202e}\u{2028}";

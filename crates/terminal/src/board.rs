@@ -1,4 +1,4 @@
-//! A state as terminal cells. Each cell of the board has two columns, and shows its topmost sprite.
+//! Draws a state as terminal cells. Each cell of the board is two columns wide, and shows its topmost sprite.
 
 use engine::{SpriteType, State};
 use ratatui::style::{Color, Modifier, Style};
@@ -14,7 +14,7 @@ pub(crate) struct Cell<'a> {
     pub(crate) style: Style,
 }
 
-/// The two columns that represent each sprite type.
+/// The two-column symbol of each sprite type.
 pub(crate) struct Signs {
     texts: Vec<String>,
     fallen: &'static str,
@@ -22,9 +22,9 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// Chooses each type's symbol by its glyph. If several types have the same symbol, its second column is
-    /// replaced by each type's own character, so that the types differ in more than colour. Unicode symbols
-    /// that fill both columns are left unchanged.
+    /// Chooses each type's symbol by its glyph. If several types share a symbol, its second column shows a
+    /// different character for each type, so that the types differ in more than colour. Unicode symbols that
+    /// fill both columns are left unchanged.
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };
         let text = |stype: SpriteType| {

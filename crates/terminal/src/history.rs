@@ -31,7 +31,7 @@ impl History {
         }
     }
 
-    /// Undoes the last tick. Does nothing at the start. The random state is undone as well, so the same
+    /// Undoes the last tick. Does nothing at the start. The random state is restored as well, so the same
     /// action leads to the same state again.
     pub(crate) fn take_back(&mut self, game: &Game) {
         let Some(ticks) = self.ticks().checked_sub(1) else { return };

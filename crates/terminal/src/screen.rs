@@ -1,4 +1,4 @@
-//! The terminal, which reads keys, displays frames, and is restored afterwards.
+//! Reads keys from the terminal, displays frames on it, and restores it afterwards.
 
 use super::session::{Command, Session};
 use super::view::{MIN_SIZE, View};

@@ -54,7 +54,7 @@ pub enum Command {
     Quit,
 }
 
-/// A player in an episode.
+/// A session in which a player plays an episode.
 pub struct Session {
     game: Game,
     level: Level,
@@ -66,7 +66,7 @@ pub struct Session {
     pub(crate) paused: bool,
     /// The number of ticks per second while the clock is running.
     pub(crate) pace: u16,
-    /// The action for the next tick, chosen by the last key since the previous tick.
+    /// The action for the next tick, chosen by the last key pressed since the previous tick.
     chosen: Option<Action>,
     /// The number of lines by which the rules are scrolled.
     pub(crate) scroll: u16,
@@ -141,7 +141,7 @@ impl Session {
             Command::Undo => {
                 self.history.take_back(&self.game);
                 self.chosen = None;
-                // Without a pause, the clock would go on at once.
+                // Without a pause, the clock would continue immediately.
                 self.paused = !self.turn_based;
             }
             Command::Faster => self.pace = (self.pace + self.pace.div_ceil(4)).min(MAX_PACE),

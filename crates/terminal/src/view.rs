@@ -56,7 +56,7 @@ impl View {
             self.board(session, frame, tall);
             self.panel(session, frame, right);
         } else {
-            // If there is no room beside the board, the status goes above it, as far as there is space.
+            // If there is no room beside the board, as much of the status as fits is shown above it.
             let status = self.status(session);
             let lines = (status.len() as u16).min(main.height / 3);
             let [top, rest] = Layout::vertical([Constraint::Length(lines), Constraint::Min(1)]).areas(main);
@@ -173,7 +173,7 @@ fn rule(line: &str) -> Line<'_> {
     Line::styled(line, style)
 }
 
-/// Returns a description of the player and of what triggers the next tick.
+/// Returns a description of the player, and of the trigger for the next tick.
 fn manner(session: &Session) -> String {
     let ticks = session.episode().actions.len();
     let who = match &session.player {
@@ -198,12 +198,12 @@ fn manner(session: &Session) -> String {
 fn keys_of(session: &Session) -> &'static str {
     match &session.player {
         Player::Person if session.turn_based => {
-            "arrows or WASD move, space uses, . waits, u takes back, r restarts, t real time, PgUp PgDn rules, q quits"
+            "arrows or WASD move, space uses, . waits, u undoes, r restarts, t real time, PgUp PgDn rules, q quits"
         }
         Player::Person => {
-            "arrows or WASD move, space uses, p pauses, n one tick, u takes back, r restarts, + - pace, t turn by turn, PgUp PgDn rules, q quits"
+            "arrows or WASD move, space uses, p pauses, n one tick, u undoes, r restarts, + - pace, t turn by turn, PgUp PgDn rules, q quits"
         }
-        _ => "p pauses, n one tick, u one back, r restarts, + - pace, PgUp PgDn rules, q quits",
+        _ => "p pauses, n one tick, u undoes one, r restarts, + - pace, PgUp PgDn rules, q quits",
     }
 }
 
@@ -274,8 +274,8 @@ BasicGame
                  How you win:
                    Leave.
 
-arrows or WASD move, space uses, . waits, u takes back, r
-restarts, t real time, PgUp PgDn rules, q quits
+arrows or WASD move, space uses, . waits, u undoes, r restarts,
+t real time, PgUp PgDn rules, q quits
 ";
         assert_eq!(drawn(&subject, (64, 15)), expect);
         subject.0.handle(Command::Act(Action::Right));
@@ -299,7 +299,7 @@ last action: none
 @  mouse  you
 X  hatch  the way to win
 arrows or WASD move, space uses, .
-waits, u takes back, r restarts, t
+waits, u undoes, r restarts, t real
 ";
         assert_eq!(drawn(&subject, (36, 12)), expect);
         assert!(drawn(&subject, (35, 12)).contains("too small"));

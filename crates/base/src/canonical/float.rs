@@ -1,9 +1,9 @@
 //! The canonical text of floats.
 //!
 //! `serde_json` also prints the shortest digits, but its layout has changed within version 1 (`1e21` became
-//! `1e+21`). Printers also differ if two shortest texts are equally close: 824108109772659.25 becomes `….2`
-//! in one printer and `….3` in another. This module fixes both the layout and the digits for snapshot format
-//! 1, as in `serde_json` 1.0.154.
+//! `1e+21`). Printers also differ when two shortest texts are equally close to the value: 824108109772659.25
+//! becomes `….2` in one printer and `….3` in another. This module fixes both the layout and the digits for
+//! snapshot format 1, as in `serde_json` 1.0.154.
 
 /// Returns the shortest decimal text that parses back to the same bits. If there are several, returns the one
 /// closest to the value; if two are equally close, returns the one whose last digit is even. The text is in
@@ -35,9 +35,9 @@ pub(super) fn shortest(value: f64) -> String {
 
 /// Returns the shortest text in scientific notation: `-1.25e-7`, `5e-324`, `0e0`.
 fn shortest_scientific(value: f64) -> String {
-    // Rust does not specify which of two equally close texts it prints as the shortest form. Its exact form
-    // with the same number of digits is rounded correctly, half to even. Just below a power of two, however,
-    // floats lie closer together than above it, so the exact form may parse back to a different number.
+    // Rust does not specify which of two equally close texts it prints as the shortest form. With an explicit
+    // precision, however, it rounds correctly, half to even. Just below a power of two, floats lie closer
+    // together than above it, so the rounded text may parse back to a different number.
     let shortest = format!("{value:e}");
     let digits = shortest.bytes().take_while(|byte| *byte != b'e').filter(u8::is_ascii_digit).count();
     let rounded = format!("{value:.precision$e}", precision = digits - 1);
@@ -84,7 +84,7 @@ mod tests {
         }
     }
 
-    /// Checks texts with all exponents and many digits, created by a small generator.
+    /// Checks floats with all exponents and many digits, drawn from a small generator.
     #[test]
     fn every_text_reads_back_as_the_same_bits() {
         let mut bits = 0x9e37_79b9_7f4a_7c15_u64;

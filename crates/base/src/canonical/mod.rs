@@ -3,10 +3,10 @@
 //! - Object keys are sorted by their UTF-8 bytes, at every depth, regardless of the order in which the type
 //!   serialises them.
 //! - Indentation is two spaces, but an array that contains no arrays or objects stays on one line.
-//! - Strings are escaped like in `serde_json`: only `"`, `\` and control characters.
+//! - Strings are escaped as in `serde_json`, which escapes only `"`, `\` and control characters.
 //! - Integers are plain 64-bit numbers. Floats have the shortest form that parses back to the same bits,
 //!   always with a `.` or an exponent (`1.0`, not `1`; `1e+16`). An `f32` is first widened to `f64`.
-//! - The text ends in one line feed.
+//! - The text ends with a single line feed.
 //!
 //! A value that JSON cannot represent exactly is an error; it is never written as a different value. Examples
 //! are NaN and infinities, a duplicate key, and nesting that the parser would reject. A `serde_json::Value`
@@ -44,8 +44,8 @@ pub enum Fault {
     /// A float is NaN or infinite.
     #[error("the number is not finite")]
     NotFinite,
-    /// The type of an object key does not have a single spelling. Strings, integers, booleans and unit
-    /// variants have a single spelling.
+    /// An object key has a type without a unique spelling. Only strings, integers, booleans and unit variants
+    /// have one.
     #[error("the key is not a string")]
     Key,
     /// An object contains this key twice, for example through `#[serde(flatten)]`.
@@ -54,7 +54,7 @@ pub enum Fault {
     /// Arrays and objects are nested deeper than [`MAX_DEPTH`].
     #[error("the value is nested deeper than {MAX_DEPTH} levels")]
     TooDeep,
-    /// The type hides its value behind a private convention of its crate, such as a TOML date.
+    /// The type encodes its value with a private convention of its crate, as a TOML date does.
     #[error("`{0}` is private to its crate: convert it to plain data first")]
     Private(&'static str),
     /// The value's own `Serialize` implementation failed.
@@ -90,7 +90,7 @@ pub fn canonical_digest<T: Serialize + ?Sized>(value: &T) -> Result<Digest, Cano
     Ok(Digest::from_bytes(*hashed.0.finalize().as_bytes()))
 }
 
-/// The remaining part of a text for comparison with another text.
+/// The part of an expected text that has not been matched yet.
 struct Rest<'a>(&'a [u8]);
 
 impl Write for Rest<'_> {

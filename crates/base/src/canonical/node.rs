@@ -73,8 +73,8 @@ impl From<Fault> for CanonicalError {
 }
 
 impl CanonicalError {
-    /// Returns the same fault with its position extended by `outer`, the key, index or variant of the enclosing object or
-    /// array.
+    /// Returns the same fault with `outer` prepended to its position. `outer` is the key, index or variant in the
+    /// enclosing object or array.
     pub fn inside(mut self, outer: &str) -> CanonicalError {
         let separator = if self.at.is_empty() { "" } else { "." };
         self.at = format!("{outer}{separator}{}", self.at);
@@ -237,8 +237,8 @@ impl Serializer for ToNode {
     fn serialize_map(self, _: Option<usize>) -> Result<Fields, CanonicalError> {
         self.fields()
     }
-    /// Rejects names with `$`, which are private conventions of `serde_json` (arbitrary precision, raw values) and
-    /// `toml` (dates).
+    /// Rejects names that start with `$`. They are private conventions of `serde_json` (arbitrary precision, raw
+    /// values) and `toml` (dates).
     fn serialize_struct(self, name: &'static str, _: usize) -> Result<Fields, CanonicalError> {
         if name.starts_with('$') { Err(Fault::Private(name).into()) } else { self.fields() }
     }
@@ -298,8 +298,8 @@ impl ser::SerializeMap for Fields {
     type Ok = Node;
     type Error = CanonicalError;
 
-    /// Serialises a key as text. Keys with a single spelling become text, as in `serde_json`. Floats have
-    /// several spellings and are rejected.
+    /// Serialises a key as text, as in `serde_json`. Rejects keys that do not have a unique spelling, such as
+    /// floats.
     fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), CanonicalError> {
         self.key = Some(match key.serialize(self.inside)? {
             Node::Text(text) => text,

@@ -1,5 +1,5 @@
 //! The book page with the help of every command, generated from the command-line parser. This module also
-//! finds the commands on all other pages.
+//! checks the commands on all other pages.
 
 use crate::usage::tests::for_each_verb;
 use clap::Command;
@@ -17,7 +17,7 @@ const HEAD: &str = "# All commands and flags
 This page is the short help of every command. `arcade COMMAND --help` prints more, with examples. Every command also takes `--json`, `-q`, `--jobs`
 and `--memory` ([the command line](command-line.md)).
 
-A test compares this page with the program. `BLESS=1 cargo test -p infinite-arcade command_page` writes it again.
+A test compares this page with the program. `BLESS=1 cargo test -p infinite-arcade command_page` regenerates it.
 ";
 
 /// Returns the page with the help of every command.
@@ -57,7 +57,7 @@ fn the_page_has_the_help_of_every_command() {
     let differing = page.lines().zip(written.lines()).find(|(new, old)| new != old);
     assert!(
         page == written,
-        "{PAGE} is old: BLESS=1 cargo test -p infinite-arcade command_page writes it; {differing:?}"
+        "{PAGE} is outdated: BLESS=1 cargo test -p infinite-arcade command_page regenerates it; {differing:?}"
     );
     let is_named = |command: &Command| page.contains(&format!("## `arcade {}`", command.get_name()));
     let mut count = 0;
@@ -83,7 +83,7 @@ fn commands(page: &str) -> Vec<String> {
     commands
 }
 
-/// Every command in the book uses only existing subcommands and flags.
+/// Checks that every command in the book uses only existing subcommands and flags.
 #[test]
 fn the_commands_of_the_book_exist() {
     let mut root = crate::usage::command();

@@ -1,5 +1,5 @@
-//! The pages of the book in `docs/`, embedded in the binary, formatted for a terminal. `docs/SUMMARY.md` is
-//! the table of contents.
+//! The pages of the book in `docs/`, which are embedded in the binary and formatted for a terminal.
+//! `docs/SUMMARY.md` is the table of contents.
 
 use crate::failure::Failure;
 use include_dir::{Dir, include_dir};
@@ -17,8 +17,8 @@ pub(crate) struct Page {
     path: String,
     /// The page's title in the table of contents.
     pub(crate) label: String,
-    /// The page's depth in the table of contents: 0 for a page listed directly in a section, greater than 0
-    /// for pages listed only by name.
+    /// The page's depth in the table of contents: 0 for a page listed directly in a section, and greater than
+    /// 0 for a page listed only by name.
     pub(crate) depth: usize,
     /// The page's Markdown text.
     pub(crate) text: &'static str,
@@ -68,7 +68,7 @@ impl Section {
 /// The table of contents in mdBook's format: section headings, and nested lists of links to pages.
 const CONTENTS: &str = "SUMMARY.md";
 
-/// Removed pages, each with the page to read instead.
+/// Removed pages, each with its replacement.
 const REPLACED: [(&str, &str); 1] = [("decision", "decisions")];
 
 /// Returns all pages in the order of the table of contents.
@@ -108,7 +108,7 @@ pub(crate) struct Hit<'a> {
 /// The points that a matching line adds to a page's score: for the title (in proportion to its matching
 /// words), for a heading or a line of the first paragraph, and for any other line.
 const POINTS: [usize; 3] = [30, 8, 1];
-/// The maximum number of lines scored as other lines.
+/// The maximum number of lines that earn the points for any other line.
 const COUNTED: usize = 10;
 
 /// The minimum number of matching lines for a beginners' page to count as an explanation of the search terms.
@@ -220,8 +220,8 @@ fn stem(wanted: &str) -> &str {
     wanted.strip_suffix("/README").unwrap_or(wanted)
 }
 
-/// Finds a page by its name or path, or by the end of its path: pages have moved between folders, so an old
-/// path may be given.
+/// Finds a page by its name, its path or the end of its path. Pages have moved between folders, so users may
+/// pass an old path.
 fn find(pages: &[Page], wanted: &str) -> Option<usize> {
     let wanted = stem(wanted);
     let is_it = |page: &Page| page.name == wanted || page.path == wanted;
@@ -247,7 +247,8 @@ impl Page {
     /// Returns the page's folder below `docs/`, or an empty text for a top-level page. A folder's README
     /// belongs to that folder.
     pub(crate) fn folder(&self) -> &str {
-        // A folder of images beside a page is not the page's own folder.
+        // A page without a README of its name belongs to its parent folder, even if it has a folder of
+        // images.
         match DOCS.get_file(format!("{}/README.md", self.path)) {
             Some(_) => &self.path,
             None => self.path.rsplit_once('/').map_or("", |(folder, _)| folder),
@@ -369,7 +370,8 @@ mod tests {
         assert!(error.contains("did you mean `prompts`?"), "{error}");
     }
 
-    /// The table of contents lists the sections in order, and lists every page under its folder's section.
+    /// Checks that the table of contents lists the sections in order, and every page under its folder's
+    /// section.
     #[test]
     fn the_contents_page_lists_every_page_once() {
         let contents = DOCS.get_file(CONTENTS).expect("a contents page").contents_utf8().expect("text");
@@ -440,8 +442,8 @@ mod tests {
         pages.iter().find(|page| page.name == name).map_or("", Page::title)
     }
 
-    /// A search for beginners' terms lists the tutorials before all other pages, starting with the tutorial
-    /// on writing a first game.
+    /// Checks that a search for beginners' terms lists the tutorials before all other pages, starting with
+    /// the tutorial on writing a first game.
     #[test]
     fn words_of_beginners_lead_to_the_tutorials() {
         let pages = pages();
@@ -508,8 +510,8 @@ mod tests {
         }
     }
 
-    /// An installed binary has no `docs/` folder, so messages for users must refer to pages that `arcade
-    /// docs` can show.
+    /// Checks that messages for users refer only to pages that `arcade docs` can show, because an installed
+    /// binary has no `docs/` folder.
     #[test]
     fn messages_and_templates_name_pages_that_the_binary_has() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

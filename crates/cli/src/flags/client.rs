@@ -1,4 +1,4 @@
-//! The flags of language models, which all subcommands with models share.
+//! The flags for language models, shared by all subcommands that use models.
 
 use crate::failure::Failure;
 use crate::flags::numbers::number;
@@ -11,13 +11,14 @@ use std::time::Duration;
 #[derive(clap::Args)]
 #[command(next_help_heading = "Language models")]
 pub(crate) struct ClientArgs {
-    /// A language model: `openai:ID`, `anthropic:ID`, `gemini:ID`; any name with --base-url (see `arcade docs models`)
+    /// A language model: `openai:ID`, `anthropic:ID` or `gemini:ID`, or any name with --base-url (see `arcade docs
+    /// models`)
     #[arg(long, value_name = "ID")]
     pub(crate) model: Option<String>,
-    /// Base URL of an OpenAI-compatible server: vLLM, llama.cpp, Ollama, `arcade serve-player`
+    /// Base URL of an OpenAI-compatible server, such as vLLM, llama.cpp, Ollama or `arcade serve-player`
     #[arg(long, value_name = "URL", requires = "model")]
     base_url: Option<String>,
-    /// The environment variable that holds the key, if not the provider's usual one
+    /// The environment variable with the API key, if it is not the provider's usual one
     #[arg(long, value_name = "VARIABLE", requires = "model")]
     key_variable: Option<String>,
     /// Sampling temperature; not sent by default
@@ -26,7 +27,7 @@ pub(crate) struct ClientArgs {
     /// Nucleus sampling threshold; not sent by default
     #[arg(long, value_name = "P", requires = "model", value_parser = number(0.0..=1.0))]
     top_p: Option<f64>,
-    /// Maximum number of tokens per answer, reasoning included
+    /// Maximum number of tokens per answer, including reasoning
     #[arg(long, value_name = "N", requires = "model")]
     max_output_tokens: Option<u32>,
     /// The provider's sampling seed
@@ -35,10 +36,10 @@ pub(crate) struct ClientArgs {
     /// `low`, `medium`, `high`, or another value that the provider accepts
     #[arg(long, value_name = "EFFORT", requires = "model")]
     reasoning_effort: Option<String>,
-    /// Maximum US dollars to spend, according to the price table
+    /// Maximum amount to spend in US dollars, according to the price table
     #[arg(long, value_name = "USD", requires = "model", value_parser = number(0.0..=1e9))]
     max_cost: Option<f64>,
-    /// Maximum number of tokens to spend, prompts and answers together
+    /// Maximum number of tokens to spend on prompts and answers together
     #[arg(long, value_name = "N", requires = "model")]
     max_tokens: Option<u64>,
     /// Maximum number of answered requests
@@ -50,19 +51,19 @@ pub(crate) struct ClientArgs {
     /// Folder for an answer cache, which is kept between evaluations
     #[arg(long, value_name = "DIR", requires = "model")]
     cache: Option<PathBuf>,
-    /// Number of concurrent requests, and so of concurrent episodes [default: 4]
+    /// Number of concurrent requests, and therefore of concurrent episodes [default: 4]
     #[arg(long, value_name = "N", requires = "model")]
     concurrency: Option<NonZeroUsize>,
     /// Maximum number of requests to start per minute
     #[arg(long, value_name = "N", requires = "model")]
     requests_per_minute: Option<NonZeroU64>,
-    /// Maximum number of tokens per minute, requests and answers together
+    /// Maximum number of tokens per minute in requests and answers together
     #[arg(long, value_name = "N", requires = "model")]
     tokens_per_minute: Option<NonZeroU64>,
     /// Maximum number of tries per request [default: 8]
     #[arg(long, value_name = "N", requires = "model")]
     tries: Option<NonZeroU32>,
-    /// Maximum number of seconds per try, or per answer of a program [default: 600]
+    /// Maximum number of seconds per try, or per answer from a program [default: 600]
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     pub(crate) timeout: Option<u64>,
 }
@@ -73,7 +74,7 @@ const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("the default is positive");
 const TIMEOUT: u64 = 600;
 
 impl ClientArgs {
-    /// Returns the first of the given flags that affects only language models, if any.
+    /// Returns the first flag set by the user that affects only language models, if any.
     pub(crate) fn unused_without_model(&self) -> Option<&'static str> {
         let given = [
             ("--base-url", self.base_url.is_some()),

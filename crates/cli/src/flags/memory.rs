@@ -7,7 +7,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bytes(pub(crate) usize);
 
-/// The units, with their sizes in bytes.
+/// The units, and their sizes in bytes.
 const UNITS: [(&str, u64); 6] = [
     ("kib", 1 << 10),
     ("mib", 1 << 20),
@@ -22,7 +22,7 @@ impl FromStr for Bytes {
 
     fn from_str(text: &str) -> Result<Bytes, String> {
         let wrong =
-            || format!("`{text}` isn't a valid memory size: use a number and unit, such as 2GiB or 1500MB");
+            || format!("`{text}` isn't a valid memory size: use a number and a unit, such as 2GiB or 1500MB");
         let lower = text.to_ascii_lowercase();
         let (number, unit) = UNITS
             .iter()

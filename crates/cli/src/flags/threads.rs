@@ -33,7 +33,7 @@ impl Limits {
     /// many threads as `RAYON_NUM_THREADS` specifies, and memory would be unlimited.
     pub(crate) fn apply(self) -> Result<(), Failure> {
         let threads = match self.jobs {
-            Some(0) => bail!("--jobs takes a number of threads, at least 1"),
+            Some(0) => bail!("--jobs takes a number of threads, which must be at least 1"),
             Some(jobs) if jobs > MAX_THREADS => {
                 console::warn(format_args!("--jobs {jobs} exceeds the limit: using {MAX_THREADS} threads"));
                 MAX_THREADS

@@ -10,7 +10,7 @@ static CORPORA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/corpora");
 static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/seeds");
 static LOCKFILE: &[u8] = include_bytes!("../../workspace.lock");
 
-/// Returns the corpus games with their names.
+/// Returns the corpus games and their names.
 pub(crate) fn corpus() -> Result<Corpus, Failure> {
     let mut games = Vec::new();
     for folder in CORPORA.dirs() {

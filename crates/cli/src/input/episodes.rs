@@ -15,7 +15,7 @@ use std::path::Path;
 /// The maximum size of an episode file. The longest episodes use about 100 bytes per tick.
 const MAX_EPISODE: usize = 1 << 22;
 
-/// An episode on its own, or as a snapshot's witness.
+/// An episode, stored alone or as a snapshot's witness.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Recorded {
@@ -42,7 +42,7 @@ pub(crate) fn read(path: &Path) -> Result<Episode, Failure> {
 }
 
 /// Rejects a path to which an episode cannot be written, before the work starts. Also rejects the paths of
-/// the game, its levels and the `others` read by the command.
+/// the game, its levels and all `others`, which the command reads.
 pub(crate) fn check(path: &Path, input: &GameInput, others: &[&str]) -> Result<(), Failure> {
     let others = others.iter().map(Path::new);
     whole_file::check(path, &input.files().into_iter().chain(others).collect::<Vec<_>>())

@@ -1,4 +1,4 @@
-//! A game specified by the user, with its levels.
+//! A game specified by the user, and its levels.
 
 use crate::diagnostics::Named;
 use crate::failure::Failure;
@@ -10,18 +10,18 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-/// A game with its accompanying levels, not yet parsed.
+/// An unparsed game with its accompanying levels.
 #[derive(Clone, Debug)]
 pub(crate) struct GameInput {
-    /// The game's text, with its name in messages.
+    /// The game's text, and its name in messages.
     pub(crate) source: Named,
     pub(crate) title: String,
     /// The game's file, or `None` for a corpus game.
     pub(crate) path: Option<PathBuf>,
     pub(super) levels: Vec<LevelInput>,
-    /// The levels specified by the user. If empty, all levels count.
+    /// The levels specified by the user. If empty, all levels are used.
     pub(super) asked: Vec<LevelInput>,
-    /// Set once the user has been told which files were not recognised as levels.
+    /// Set once the user has been informed of the files that were not recognised as levels.
     pub(super) told: Arc<OnceLock<()>>,
 }
 
@@ -81,15 +81,15 @@ impl GameInput {
         self.levels.len()
     }
 
-    /// Returns the levels specified by the user in place of the game, or, if there are none, the levels that
+    /// Returns the levels that the user passed instead of the game or, if there are none, the levels that
     /// accompany the game.
     pub(crate) fn levels(&self) -> Result<Vec<Named>, Failure> {
         self.tell_strays();
         self.wanted().iter().map(LevelInput::read).collect()
     }
 
-    /// Reports files and folders beside the game that look like levels but are not, at most once. Reports
-    /// nothing if the user specified levels.
+    /// Warns, at most once, about files and folders beside the game that look like levels but are ignored.
+    /// Does nothing if the user specified levels.
     fn tell_strays(&self) {
         let Some(path) = self.path.as_deref().filter(|_| self.asked.is_empty()) else { return };
         let own = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -122,8 +122,8 @@ impl GameInput {
         }
     }
 
-    /// Returns [`levels`](Self::levels), numbered as in their names. If a number is missing or duplicated,
-    /// returns their positions instead.
+    /// Returns [`levels`](Self::levels) with the numbers in their names. If a number is missing or
+    /// duplicated, numbers the levels by position instead.
     pub(crate) fn numbered_levels(&self) -> Result<Vec<(usize, Named)>, Failure> {
         self.tell_strays();
         let numbers: BTreeSet<usize> = self.wanted().iter().filter_map(|level| level.number).collect();
@@ -134,8 +134,8 @@ impl GameInput {
         self.wanted().iter().enumerate().map(number).collect()
     }
 
-    /// Returns the level specified in place of the game, followed by the levels specified after it. Returns
-    /// all levels if the user specified none.
+    /// Returns the level passed instead of the game, if any, followed by the levels passed after it. Returns
+    /// all levels if the user passed none.
     pub(crate) fn named_levels(&self, names: &[String]) -> Result<Vec<Named>, Failure> {
         if names.is_empty() {
             return self.levels();
@@ -149,7 +149,7 @@ impl GameInput {
         self.levels()?.iter().map(|named| named.level(game)).collect()
     }
 
-    /// Returns the level specified by the user in place of the game, if any.
+    /// Returns the level that the user passed instead of the game, if any.
     pub(crate) fn asked(&self) -> Result<Option<Named>, Failure> {
         self.asked.first().map(LevelInput::read).transpose()
     }
@@ -183,7 +183,7 @@ impl GameInput {
                 let numbers: Vec<usize> = self.levels.iter().filter_map(|level| level.number).collect();
                 let there = match &numbers[..] {
                     [] => "no levels of its own".to_owned(),
-                    [one] => format!("level {one} only"),
+                    [one] => format!("only level {one}"),
                     [first, .., last] if last - first + 1 == numbers.len() => {
                         format!("levels {first} to {last}")
                     }

@@ -78,7 +78,8 @@ fn file(path: &Path) -> Result<Found, Failure> {
         }
         refuse_python(path, &text)?;
         let names = match file_names(folder_of(path)) {
-            // Levels are searched for beside any file, but only a whole game needs them.
+            // A folder that cannot be listed is an error only for `game.*`, whose levels are expected beside
+            // it.
             Err(_) if path.file_stem().is_none_or(|stem| !stem.eq_ignore_ascii_case("game")) => Vec::new(),
             names => names?,
         };
@@ -258,7 +259,7 @@ fn no_game_in(folder: &Path) -> Failure {
     }
 }
 
-/// Finds the path in the same folder with the most similar name, in case of a typing error.
+/// Finds the path with the most similar name in the same folder, in case the name contains a typing error.
 fn nearest_sibling(path: &Path) -> Option<String> {
     let folder = path.parent()?;
     let wanted = path.file_name()?.to_string_lossy();

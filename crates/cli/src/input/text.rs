@@ -25,7 +25,7 @@ pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
         let at = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
         let help = "save it as UTF-8";
-        malformed!("{name}: not a text file (byte {at} is not UTF-8, in line {line}); {help}")
+        malformed!("{name}: not a text file (byte {at}, in line {line}, is not UTF-8); {help}")
     })
 }
 

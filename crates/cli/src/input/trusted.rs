@@ -44,7 +44,7 @@ impl TrustArgs {
         self.key.as_deref().map_or(Ok(()), |file| anchor(file).map(drop))
     }
 
-    /// Judges whether a release and its lock file are signed as required. Returns `None` if no key was given.
+    /// Checks the signatures of a release and of its lock file. Returns `None` if no key was given.
     pub(crate) fn judge_release(&self, place: &Path, of: &Verification) -> Result<Option<Signed>, Failure> {
         let Some(mut signed) = self.judge(place, &of.name, &of.root)? else { return Ok(None) };
         let lockfile = of.manifest.lockfile;
@@ -57,7 +57,7 @@ impl TrustArgs {
         Ok(Some(signed))
     }
 
-    /// Judges whether a release's root is signed as required. Returns `None` if no key was given.
+    /// Checks the signatures of a release's root. Returns `None` if no key was given.
     pub(crate) fn judge(&self, place: &Path, name: &str, root: &Digest) -> Result<Option<Signed>, Failure> {
         let Some(file) = &self.key else { return Ok(None) };
         let anchor = anchor(file)?;
@@ -67,7 +67,7 @@ impl TrustArgs {
                 if place.is_file() { "copy the release's papers/signatures to that folder, " } else { "" };
             let problem = format!(
                 "there are no signatures at `{}`: {copy}sign the release with `arcade trust sign`, or pass \
-                 their folder with --signatures",
+                 a different folder with --signatures",
                 folder.in_message()
             );
             return Ok(Some(Signed { problems: vec![problem], ..Signed::default() }));
@@ -85,7 +85,8 @@ impl TrustArgs {
     }
 }
 
-/// The root of a release that the user knows from another source, for subcommands that use a release.
+/// The expected root of a release, which the user knows from another source. Shared by subcommands that use
+/// releases.
 #[derive(clap::Args)]
 pub(crate) struct OriginArgs {
     /// The published root of the snapshot; a different root is an error
@@ -95,7 +96,7 @@ pub(crate) struct OriginArgs {
     trust: TrustArgs,
 }
 
-/// The checks made on a release's root, in the form in which they are recorded.
+/// The checks performed on a release's root, in the form in which they are recorded.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Origin {
     /// The release's root.
@@ -113,7 +114,7 @@ impl OriginArgs {
         self.root.is_none() && self.trust.key.is_none()
     }
 
-    /// Checks a release's root. Returns the checks made, or the problems found.
+    /// Checks a release's root. Returns the checks performed, or the problems found.
     pub(crate) fn check(
         &self,
         place: &Path,
@@ -189,7 +190,7 @@ pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     if disk::is_readable_by_others(file) {
         let place = shell::quoted(file);
         console.remark(format_args!(
-            "warning: others can read the secret in {place}; protect it: chmod 600 {place}"
+            "warning: other users can read the secret in {place}; protect it: chmod 600 {place}"
         ));
     }
 }

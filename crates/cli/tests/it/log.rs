@@ -261,7 +261,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     assert!(text(&run(folder, &["trust", "log", "show", "log"], 0).stdout).contains("1 entry, not checked"));
 
     // The command that `--commit` printed works as printed.
-    let command = shlex::split(line("if you keep a log, append it first:")).unwrap();
+    let command = shlex::split(line("if you keep a log, append the commitment first:")).unwrap();
     let arguments: Vec<&str> = command.iter().skip(1).map(String::as_str).collect();
     says(folder, &arguments, 0, "commitment   2027-02, after `tiny`");
 }

@@ -388,7 +388,7 @@ fn unreplayed_witnesses_are_not_verified() {
     let folder = tempfile::tempdir().unwrap();
     let place = kept("other-semantics");
     let said = text(&run(folder.path(), &["verify", &place], 1).stdout);
-    assert!(said.contains("witnesses: not replayed (needs an arcade of semantics 1"), "{said}");
+    assert!(said.contains("witnesses: not replayed (needs a version of arcade with semantics 1"), "{said}");
     assert!(said.contains("other-semantics: NOT verified") && said.contains("--accept-unreplayed"), "{said}");
     run(folder.path(), &["--json", "verify", &place], 1);
     let said = text(&run(folder.path(), &["verify", &place, "--accept-unreplayed"], 0).stdout);

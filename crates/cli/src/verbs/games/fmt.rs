@@ -25,7 +25,7 @@ pub(crate) struct Args {
     /// file with a game in a string
     #[arg(value_name = "GAME")]
     game: String,
-    /// Print nothing, and exit with status 1 if the file is not in canonical form
+    /// Do not print the game, and exit with status 1 if the file is not in canonical form
     #[arg(long, conflicts_with = "from")]
     check: bool,
     /// The dialect that the game is written in
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let source = input.source;
     let (description, problems) = syntax::parse(&source.text);
     if Diagnostics::has_errors(&problems) {
-        // A line that cannot be parsed has no canonical form, so printing only the other lines would lose it.
+        // A line that cannot be parsed has no canonical form. Printing only the other lines would lose it.
         return Err(diagnostics::failure(&source, &problems));
     }
     let text = syntax::print(&description);
@@ -113,7 +113,7 @@ fn convert(args: &Args, console: &Console) -> Answer {
             console.file(&converted.text);
             if !levels.is_empty() && Path::new(&args.game).is_file() {
                 console.remark(format_args!(
-                    "the levels are not printed; --out DIR writes the game and {} of them",
+                    "the levels are not printed; --out DIR writes the game and its levels ({})",
                     levels.len()
                 ));
             }

@@ -14,8 +14,8 @@ use studio::{TEMPLATES, Template};
 
 /// Writes a new game to start from: a folder with about twenty lines of commented rules and two levels.
 ///
-/// The game is playable at once, and its comments explain the language. `arcade docs first-game` explains how to turn
-/// it into a game of your own.
+/// The game is immediately playable, and its comments explain the language. `arcade docs first-game` explains how to
+/// turn it into a game of your own.
 ///
 /// Example: arcade new river-post --like crossing
 #[derive(clap::Args)]

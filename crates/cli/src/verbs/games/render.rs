@@ -17,11 +17,11 @@ use std::path::{Path, PathBuf};
 /// The maximum length of a GIF's longer side, in pixels, unless the user specifies a scale.
 const GIF_SIDE: u32 = 480;
 
-/// Draws a level, a tick of an episode, or a whole episode, as PNG, SVG, GIF or text, depending on the file's
-/// extension.
+/// Draws a level, a tick of an episode, or a whole episode, as PNG, SVG, GIF or text, depending on the
+/// extension of the output file.
 ///
-/// A sprite's shape shows its role: spikes, teeth and angry eyes harm, a star wins, bricks block, and the figure in
-/// the bright ring is the player. The colours are the game's own.
+/// A sprite's shape shows its role: spikes, teeth and angry eyes harm, a star wins, bricks block, and the figure in the
+/// bright ring is the player. The colours come from the game.
 ///
 /// Example: arcade render hailglass 0 --planner mcts --budget 500 -o hailglass.gif
 #[derive(clap::Args)]
@@ -100,7 +100,7 @@ struct Subject<'a> {
     symbols: Symbols,
     game: &'a Game,
     level: &'a Level,
-    /// The episode's actions up to the last tick in the image, or empty without an episode.
+    /// The episode's actions up to the last tick in the image. Empty if there is no episode.
     actions: &'a [engine::Action],
     seed: Seed,
 }

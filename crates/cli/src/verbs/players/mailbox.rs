@@ -124,7 +124,7 @@ impl Session<'_> {
                     return Ok(Some(open.clone()));
                 }
                 if !self.skipped.is_empty() {
-                    // No other prompt is waiting, so the skipped prompts come again.
+                    // No other prompt is waiting, so the skipped prompts are shown again.
                     self.skipped.clear();
                     continue;
                 }

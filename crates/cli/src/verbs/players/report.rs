@@ -15,8 +15,8 @@ use std::path::PathBuf;
 
 /// Compares the results of evaluations: tables, plots and one page.
 ///
-/// Every number is recomputed from the logs, whose episodes are replayed. DIR gets report.html (one file, for any
-/// browser), report.md, report.json, and every table as tables/*.csv and tables/*.tex.
+/// Every number is recomputed from the logs, whose episodes are replayed. The command writes to DIR: report.html (one
+/// file, for any browser), report.md, report.json, and every table as tables/*.csv and tables/*.tex.
 ///
 /// Example: arcade report results/random results/mcts-100 --out report
 #[derive(clap::Args)]
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
                     folder.in_message()
                 ),
                 None => format!(
-                    "`{}`: these are not results on a release; evaluate a release folder",
+                    "`{}`: these results do not belong to a release; evaluate a release folder",
                     folder.in_message()
                 ),
             })

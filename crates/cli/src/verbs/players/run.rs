@@ -115,7 +115,7 @@ struct Stopped<'a> {
     plays: u64,
 }
 
-/// One planner's results on some episodes.
+/// One planner's results on a set of episodes.
 #[derive(Serialize)]
 struct Row<'a> {
     /// The game, or `None` for all games together.

@@ -8,10 +8,10 @@ use evaluation::serve::{PromptPlayer, Server};
 use serde_json::json;
 use std::path::Path;
 
-/// Answers OpenAI-compatible chat completions on 127.0.0.1 with a player that knows only the prompt, until it is
-/// killed. The player is `random`, `reflex` (which takes the shortest way, according to the board and the rules in
-/// the prompt) or `planner:NAME[:CALLS]` (which plans from the position in the prompt, if the prompt is complete).
-/// The first line of output contains the base URL.
+/// Answers OpenAI-compatible chat completion requests on 127.0.0.1 with a player that knows only the prompt, until the
+/// command is stopped. The player is `random`, `reflex` (which takes the shortest way, according to the board and the
+/// rules in the prompt) or `planner:NAME[:CALLS]` (which plans from the position in the prompt, if the prompt is
+/// complete). The first line of output contains the base URL.
 ///
 /// Example: arcade serve-player --player reflex --port 8090
 #[derive(clap::Args)]

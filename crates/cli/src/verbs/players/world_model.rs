@@ -1,4 +1,4 @@
-//! `arcade world-model`: examines players in writing games of which they have only seen recordings.
+//! `arcade world-model`: examines players that write games from recordings.
 
 use super::evaluate::subjects::{self, Wanted};
 use crate::console::Console;
@@ -25,11 +25,11 @@ use std::sync::Arc;
 
 /// Examines how well a player works out the rules of games from recordings.
 ///
-/// The player sees the levels of a game under meaningless names, and recordings of an exploring player, but no rules. It
-/// writes the game in VGDL. The score is the percentage of other recorded steps that its game reproduces exactly: the
-/// board, and the whole observable state. A fixed planner also plans wins with its game and plays them in the true game.
-/// Only deterministic levels are used, at most three per game. OUT gets the questions and answers in logs/, the player's
-/// games in games/, and results.json. See `arcade docs world-model`.
+/// The player sees the levels of a game under meaningless names, and recordings of an exploring player, but no rules.
+/// It writes the game in VGDL. The score is the percentage of other recorded steps that its game reproduces exactly:
+/// the board, and the whole observable state. A fixed planner also plans wins with its game and plays them in the true
+/// game. Only deterministic levels are used, at most three per game. The command writes to OUT: the questions and
+/// answers in logs/, the player's games in games/, and results.json. See `arcade docs world-model`.
 ///
 /// Exit status 0: all games were examined. 3: a file could not be written; --resume continues.
 ///
@@ -39,13 +39,15 @@ pub(crate) struct Args {
     /// Games, or one snapshot; corpus games by name
     #[arg(value_name = "GAMES", required = true)]
     subjects: Vec<String>,
-    /// `induce` (the reference player, a program), or `mailbox:DIR`, for any program or person that answers files
+    /// `induce` (the reference player, a program), or `mailbox:DIR`, for any program or person that answers the files
+    /// in a folder
     #[arg(long, value_name = "NAME")]
     player: String,
-    /// Words of VGDL to give: `used` (those of the game), `candidates` (all deterministic ones), `none`
+    /// Words of VGDL to list in the question: `used` (those of the game), `candidates` (all deterministic
+    /// ones) or `none`
     #[arg(long, value_name = "LEVEL", default_value = "used", value_parser = hints)]
     hints: Hints,
-    /// Number of recorded episodes to show. As many other episodes are used for the score
+    /// Number of recorded episodes to show. The same number of other episodes is used for the score
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(1..=100))]
     episodes: u64,
     /// Let the player explore with this number of actions, instead of showing recorded episodes
@@ -60,7 +62,7 @@ pub(crate) struct Args {
     /// Output folder for the logs, games and results (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Continue an interrupted examination of the same command
+    /// Continue an interrupted examination that the same command started
     #[arg(long)]
     resume: bool,
 }
@@ -68,7 +70,7 @@ pub(crate) struct Args {
 /// The file with the settings of an examination.
 const SETTINGS_FILE: &str = "settings.json";
 
-/// The settings of an examination, which a resumed one must repeat.
+/// The settings of an examination, which must be the same when it is resumed.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RunSettings {
@@ -87,7 +89,7 @@ enum Player {
 
 fn hints(text: &str) -> Result<Hints, String> {
     let found = Hints::ALL.into_iter().find(|hints| hints.name() == text);
-    found.ok_or_else(|| "the levels of help are `used`, `candidates` and `none`".to_owned())
+    found.ok_or_else(|| "expected `used`, `candidates` or `none`".to_owned())
 }
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -135,7 +137,10 @@ fn open(args: &Args, settings: &RunSettings, console: &Console) -> Result<Player
         }
         ("induce", _) => None,
         (_, Some(folder)) if !folder.is_empty() => Some(PathBuf::from(folder)),
-        _ => bail!("`{}` is not a player here; pass --player induce, or --player mailbox:DIR", args.player),
+        _ => bail!(
+            "`{}` is not a player for this command; pass --player induce, or --player mailbox:DIR",
+            args.player
+        ),
     };
     protected::check(&args.out)?;
     let out = &args.out;
@@ -152,7 +157,7 @@ fn open(args: &Args, settings: &RunSettings, console: &Console) -> Result<Player
             && disk::read_start(&file, 1 << 20).ok().as_deref() != Some(written.as_bytes()) =>
         {
             bail!(
-                "{} has no examination with these settings; repeat the command with which it began",
+                "{} does not contain an examination with these settings; repeat the command that started it",
                 out.in_message()
             )
         }
@@ -169,7 +174,7 @@ fn open(args: &Args, settings: &RunSettings, console: &Console) -> Result<Player
     Ok(Player::Mailbox(Arc::new(mailbox)))
 }
 
-/// Examines the player on one game, and writes its game.
+/// Examines the player on one game, and stores the player's version of the game.
 fn one(args: &Args, player: &Player, task: &WorldModelTask) -> Result<Examined, Failure> {
     let logs = args.out.join("logs");
     disk::create_folder_no_follow(&logs).map_err(|error| Failure::write(&logs, error))?;

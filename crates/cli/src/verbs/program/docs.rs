@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     found(&pages, &wanted, about_verb, console)
 }
 
-/// The pages about subcommands that have no page of their own name, most relevant first.
+/// The pages about subcommands that have no page with the same name, most relevant first.
 const VERBS: [(&str, &[&str]); 24] = [
     ("calibrate", &["calibrate", "scale"]),
     ("clean", &["command-line"]),

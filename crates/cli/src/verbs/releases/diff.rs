@@ -23,7 +23,7 @@ use std::path::PathBuf;
 /// The first line is the verdict: whether difficulty was measured and differs, how many levels return, and how near the
 /// nearest two games are. With --quiet, it is the only line.
 ///
-/// Every figure is explained in `arcade docs diff`. --json has all of them, item by item.
+/// Every figure is explained in `arcade docs diff`. --json prints all figures, item by item.
 ///
 /// Exit status 0: compared. 1: one of the two does not verify. 2: one is not a snapshot.
 ///
@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// The later snapshot's folder or .tar.zst
     #[arg(value_name = "AFTER", value_parser = crate::paths::release_parser())]
     after: PathBuf,
-    /// Number of nearest pairs of games to list
+    /// Number of pairs of games to list, nearest first
     #[arg(long, value_name = "N", default_value_t = 5)]
     closest: usize,
     #[command(flatten)]
@@ -255,7 +255,9 @@ fn near(neighbours: &Neighbours, console: &Console) {
         }
     }
     let limit = validators::novelty::NEAR;
-    console.say(format_args!("  closer than {limit:.1}: {near}, of which both generated: {near_generated}"));
+    console.say(format_args!(
+        "  closer than {limit:.1}: {near}, of which {near_generated} between generated games"
+    ));
     for pair in closest {
         console.say(format_args!("  {:.2}  {}  {}", pair.distance, pair.after, pair.before));
     }

@@ -198,7 +198,7 @@ fn archive(args: &Args, out: &Path, console: &Console) -> Answer {
         let (signed, beside) = (args.snapshot.join(SIGNATURES), signatures_of(out));
         if signed.is_dir() && !beside.exists() {
             console.say(format_args!(
-                "`arcade verify --key` looks for the archive's signatures next to it:  cp -r {} {}",
+                "`arcade verify --key` looks for signatures next to the archive:  cp -r {} {}",
                 shell::quoted(&signed),
                 shell::quoted(&beside)
             ));

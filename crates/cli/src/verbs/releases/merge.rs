@@ -9,7 +9,7 @@ use crate::verbs::releases::release::{read_secret_file, report, tools};
 use snapshots::mint::Shards;
 use std::path::PathBuf;
 
-/// Joins the shards of a release. The result is bit for bit the snapshot of an unsharded mint.
+/// Joins the shards of a release. The result is bit-for-bit identical to the snapshot of an unsharded mint.
 ///
 /// Example: arcade merge shard1 shard2 shard3 shard4 --out releases/medium
 #[derive(clap::Args)]

@@ -1,4 +1,5 @@
-//! The questions of `arcade export`: drawn and written as a dataset, or drawn again to check answers.
+//! The questions of `arcade export`, which are drawn and written as a dataset, or drawn again to check
+//! answers.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -26,10 +27,10 @@ const MAX_ANSWERS: usize = 1 << 30;
 
 #[derive(clap::Args)]
 pub(crate) struct QuestionArgs {
-    /// Number of questions of each kind (default 100)
+    /// Number of questions of each kind [default: 100]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     count: Option<u32>,
-    /// Text to derive the seeds of questions from (default "questions")
+    /// Text to derive the seeds of questions from [default: questions]
     #[arg(long, value_name = "TEXT")]
     seed: Option<String>,
     /// Check the answers in a file instead: one JSON object per line, with the keys id and answer
@@ -55,10 +56,12 @@ struct Checked {
 }
 
 impl QuestionArgs {
-    /// Reports flags that have no meaning for other formats than questions.
+    /// Rejects flags that apply only to questions.
     pub(super) fn refuse(&self) -> Result<(), Failure> {
         if self.count.is_some() || self.seed.is_some() || self.check.is_some() {
-            bail!("--count, --seed and --check are about questions: omit them, or choose --format questions");
+            bail!(
+                "--count, --seed and --check apply only to questions: omit them, or choose --format questions"
+            );
         }
         Ok(())
     }
@@ -94,7 +97,7 @@ impl QuestionArgs {
             return report(name, &questions, &given, console);
         }
         let (Some(draft), Some(out)) = (draft, out) else {
-            bail!("--out is missing: name the folder to write");
+            bail!("--out is missing: pass the folder to write");
         };
         let (root, canary) = (released.manifest.root.to_string(), released.manifest.canary.to_string());
         let command =

@@ -271,7 +271,7 @@ fn concurrency_is_bounded_by_episodes() {
     let args = ["evaluate", "hailglass", "--levels", "0,1", "--max-steps", "3", "--player", "random"];
     let output = run(home.path(), &[&args[..], &["--jobs", "5000", "--out", "r"]].concat(), 0);
     let told = text(&output.stderr);
-    assert!(told.contains("--jobs 5000") && told.contains("2 run at a time"), "{told}");
+    assert!(told.contains("--jobs 5000") && told.contains("2 run at the same time"), "{told}");
 }
 
 #[test]
@@ -335,7 +335,7 @@ fn episodes_stopped_by_the_engine_are_reported() {
     let told = text(&run(home.path(), &["report", "r", "--out", "report"], 2).stderr);
     assert!(told.contains("`report` is not empty") && told.contains("--out report-2"), "{told}");
     let told = text(&run(home.path(), &[&asked[..], &["--resume"]].concat(), 1).stdout);
-    assert!(told.contains("now: arcade report r --out report-2"), "{told}");
+    assert!(told.contains("next: arcade report r --out report-2"), "{told}");
 }
 
 /// Requests that cannot work are rejected before a folder is written, and the printed advice works.

@@ -177,7 +177,7 @@ fn malformed_requests_name_the_next_move() {
         assert!(text(&output.stderr).contains(words), "{}", text(&output.stderr));
     };
     says(&["validate", "nowhere.vgdl"], 2, "there is no such file");
-    says(&["validate", ".", "7"], 2, "`7` is not a level of ., which has level 0 only");
+    says(&["validate", ".", "7"], 2, "`7` is not a level of ., which has only level 0");
     says(&["validate"], 2, "GAME");
     says(&["validat", "."], 2, "validate");
     says(&["release", "stater"], 2, "did you mean `starter`?");

@@ -20,10 +20,10 @@ pub(super) enum RequestedDesigner {
     Reference(Reference),
 }
 
-/// A connected designer, with the state that outlives a draft.
+/// A connected designer, and the state that outlives a draft.
 pub(super) struct Connected {
     pub(super) designer: Designer,
-    /// The spending so far, with its caps.
+    /// The spending so far, and the caps on it.
     pub(super) caps: Option<Arc<Caps>>,
     mailbox: Option<Arc<Mailbox>>,
 }

@@ -19,9 +19,9 @@ use validators::{Criteria, Tier};
 /// Lets a language model design games: the idea, the rules and the levels, with feedback after each answer.
 ///
 /// Each stage comes with a short manual of VGDL. After each answer, the model receives the problems in its files, the
-/// verdicts and the gates, in the words of `arcade validate`, and may correct its answer three times. OUT gets the
-/// accepted games in games/, which every command accepts, with the provenance of each; the log of all questions and
-/// answers; and results.json. See `arcade docs model-designs`.
+/// verdicts and the gates, in the wording of `arcade validate`, and may correct its answer three times. The command
+/// writes to OUT: the accepted games in games/, each with its provenance; the log of all questions and answers; and
+/// results.json. Every command accepts the games. See `arcade docs model-designs`.
 ///
 /// Exit status 0: all drafts were written, accepted or not. 1: a cap was reached first (raise it and use --resume), or a replay
 /// differs. 2: malformed input. 3: network, server or disk failed; --resume continues. 128 + signal, such as 130 for
@@ -34,7 +34,7 @@ pub(crate) struct Args {
     /// reference designer: `grammar`, `kernels`, `inventor`
     #[arg(long, value_name = "NAME", conflicts_with = "model")]
     designer: Option<String>,
-    /// The designer's name in results [default: the model's name, or the mailbox]
+    /// The designer's name in results [default: the name of the model, or of the mailbox]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
     /// Number of drafts
@@ -55,7 +55,7 @@ pub(crate) struct Args {
     /// Games from which each game must differ, besides the corpus, the kernels and earlier drafts. May be repeated
     #[arg(long, value_name = "GAME")]
     unlike: Vec<String>,
-    /// Forward-model calls to find a win, for each level
+    /// Forward-model calls per level to find a win
     #[arg(long, value_name = "CALLS", default_value_t = BUDGET, value_parser = clap::value_parser!(u64).range(1..))]
     budget: u64,
     /// Text to derive the seeds from
@@ -67,10 +67,11 @@ pub(crate) struct Args {
     /// Continue an interrupted run of the same command
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Compute all finished drafts in this folder again from their logs, without the model, and compare them
+    /// Recompute all finished drafts in this folder from their logs, without the model, and compare them with
+    /// the stored ones
     #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "model", "designer"])]
     replay: Option<PathBuf>,
-    /// Print the designers' scores: the drafts in each of these folders, with intervals and costs per accepted game
+    /// Print the designers' scores for the drafts in these folders, with intervals and costs per accepted game
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["out", "model", "designer", "replay"])]
     report: Vec<PathBuf>,
     #[command(flatten)]

@@ -80,7 +80,7 @@ pub(super) fn replayed(results: &Results, differing: &[u64], console: &Console) 
         console.say(format_args!("draft {number} differs from the stored one"));
     }
     let same = count - differing.len();
-    console.say(format_args!("{same} of {} follow exactly from their logs", base::count(count, "draft")));
+    console.say(format_args!("{same} of {} reproduced exactly from their logs", base::count(count, "draft")));
     Ok(differing.is_empty())
 }
 

@@ -309,7 +309,7 @@ fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     let millions = tally.calls as f64 / 1e6;
     let _ = writeln!(
         text,
-        "\n{made} of {asked} games in {seconds:.1} s; {looks} inspected, {judged} judged, {tried} levels tried; {millions:.1} million forward-model calls"
+        "\n{made} of {asked} games in {seconds:.1} s; {looks} candidates inspected, {judged} judged, {tried} levels tried; {millions:.1} million forward-model calls"
     );
     if !tally.rejections.is_empty() {
         let _ = writeln!(text, "rejected: {}", tally.reasons());

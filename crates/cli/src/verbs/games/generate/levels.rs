@@ -25,8 +25,8 @@ use validators::{Criterion, Difficulty, RuleRef};
 /// Makes new levels for a game. The same flags give the same bytes, on any number of threads.
 ///
 /// `search` and `evolutionary` levels come with a winning episode. Doing nothing never wins them, and random keys
-/// rarely do. `constructive` levels are instant and not judged, unless you request a property that has to be
-/// measured: a difficulty, a length or a rule. The folder contains the game, its new levels, and levels.json with
+/// rarely do. `constructive` levels are generated instantly and are not judged, unless you request a property that has
+/// to be measured: a difficulty, a length or a rule. The folder contains the game, its new levels, and levels.json with
 /// facts about each level; `arcade validate DIR` and `arcade play DIR` accept it directly. The folder is either
 /// complete or absent.
 ///
@@ -159,7 +159,7 @@ fn stype(game: &Game, name: &str) -> Result<SpriteType, Failure> {
     })
 }
 
-/// The number of levels generated for comparison, without a requested difficulty.
+/// The number of levels that are generated without a requested difficulty, for comparison.
 const POOL: u32 = 60;
 
 /// Judges the levels again, and writes the report on them.
@@ -185,8 +185,7 @@ fn report(
         None => Vec::new(),
     };
     let pool = survey.judge(&plain(&pool));
-    // Levels that random keys win are not labelled here, because only levels that meet the criteria can be
-    // chosen.
+    // Only levels that meet the criteria are labelled, because the generator chooses from such levels only.
     let fit = pool.iter().filter(|judged| judged.report.passes());
     let pool: Vec<Difficulty> = fit.filter_map(|judged| judged.label()).collect();
     let report = LevelSetReport::of(&Sample {
@@ -281,7 +280,7 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
     let (looks, judged, millions) = (cost.looks(), cost.levels_tried, cost.calls as f64 / 1e6);
     let _ = writeln!(
         text,
-        "{made} of {asked} levels in {seconds:.1} s; {looks} inspected, {judged} judged; {millions:.1} million forward-model calls"
+        "{made} of {asked} levels in {seconds:.1} s; {looks} candidates inspected, {judged} judged; {millions:.1} million forward-model calls"
     );
     let missing = asked as usize - made;
     if !cost.rejections.is_empty() {

@@ -14,10 +14,9 @@ const MAX_PACE: i64 = 60;
 
 /// Plays a level in the terminal: by hand, by a planner that you watch, or as a replay of a recorded episode.
 ///
-/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` takes one back, `r`
-/// restarts, `+` and `-` change the pace, `t` changes between turn by turn and real time, Page Up and Page Down
-/// scroll the rules, `q` quits. A game in which nothing happens unless you act waits for you; in other games, the
-/// clock runs.
+/// Keys: arrows or WASD move, space uses, `.` waits, `p` pauses, `n` plays one tick, `u` undoes one, `r` restarts, `+`
+/// and `-` change the pace, `t` switches between turn-based play and real time, Page Up and Page Down scroll the rules,
+/// `q` quits. A game in which nothing happens unless you act waits for you; in other games, the clock runs.
 ///
 /// Example: arcade play quiet-jars 0 --record win.json
 #[derive(clap::Args)]
@@ -43,7 +42,7 @@ pub(crate) struct Args {
     /// Watch a recorded episode
     #[arg(long, value_name = "FILE", conflicts_with = "planner")]
     replay: Option<PathBuf>,
-    /// Ticks per second, if the clock runs
+    /// Ticks per second while the clock is running
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=MAX_PACE))]
     fps: u16,
     /// Use ASCII symbols only

@@ -40,9 +40,8 @@ pub(crate) struct Args {
     /// A release to compare with the opened release
     #[arg(long, value_name = "SNAPSHOT", value_parser = crate::paths::release_parser())]
     against: Option<PathBuf>,
-    /// Snapshots, or folders of snapshots, to search for the releases before the opened release when verifying
-    /// it, in addition to
-    /// the parent folders of the opened release and of --against
+    /// Snapshots, or folders of snapshots, to search for earlier releases when verifying the opened release, in
+    /// addition to the parent folders of the opened release and of --against
     #[arg(long, value_name = "DIR", num_args = 1.., requires = "place")]
     chain: Vec<PathBuf>,
     #[command(flatten)]

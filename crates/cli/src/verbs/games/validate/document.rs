@@ -36,7 +36,7 @@ pub(super) struct LevelDocument<'a> {
 }
 
 impl Document<'_> {
-    /// Returns the parts of the document that the answer in words contains.
+    /// Returns the parts of the document that the human-readable answer contains.
     pub(super) fn review<'a>(&'a self, warnings: &'a [String]) -> Review<'a> {
         let level = |level: &'a LevelDocument<'_>| ReviewedLevel {
             name: &level.level,

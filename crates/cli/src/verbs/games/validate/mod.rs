@@ -20,12 +20,13 @@ use validators::{Criteria, CriterionSet, Effort, Judging, Panel, Report};
 
 /// Judges a game and its levels: all problems in all files first, then each criterion for a release.
 ///
-/// The verdict comes first: one line per level and one for the game. The warnings about the files follow, and then the criteria,
-/// each with its observations and advice. If no level is left out, the use of every rule is checked for the game over all its
-/// levels. With -q, everything that passes is left out. See `arcade docs validate` for the criteria.
+/// The verdict comes first: one line per level and one for the game. The warnings about the files follow, and then the
+/// criteria, each with its observations and advice. If no level is left out, the criterion that every rule is used is
+/// checked across all levels of the game. With -q, everything that passes is left out. See `arcade docs validate` for
+/// the criteria.
 ///
-/// Exit status 0: every level and the game meet every criterion. 1: a level or the game does not, or could not be shown to. 2: a
-/// file is malformed.
+/// Exit status 0: every level and the game meet every criterion. 1: a level or the game fails a criterion, or could not
+/// be shown to meet it. 2: a file is malformed.
 ///
 /// Example: arcade validate my-game/ --witness win.json
 #[derive(clap::Args)]
@@ -36,8 +37,8 @@ pub(crate) struct Args {
     /// Level files, or numbers of the game's own levels [default: all of the game's own levels]
     #[arg(value_name = "LEVEL")]
     levels: Vec<String>,
-    /// Forward-model calls to find a win, for each level; all other criteria together take up to about eight
-    /// times this number
+    /// Forward-model calls per level to find a win; all other criteria together take up to about eight times
+    /// this number
     #[arg(long, value_name = "CALLS", default_value_t = Criteria::default().budget, value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     budget: u64,
     /// Also check the game and all its levels against the gates for generated games (`arcade docs gates`)
@@ -80,7 +81,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         bail!("{name}: the game compiles, but there is no level to judge; {help}");
     }
     if args.witness.is_some() && levels.len() > 1 {
-        bail!("--witness takes one level, not {}: pass it after the game", levels.len());
+        bail!("--witness takes one level, not {}: pass that level after the game", levels.len());
     }
     if let Some(path) = &args.witness {
         episodes::check(path, &input, &args.levels.iter().map(String::as_str).collect::<Vec<_>>())?;
@@ -99,7 +100,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let panel = Panel::new(criteria.check().map_err(Failure::malformed)?, Effort::Calls(args.budget));
     let seed = Seed::from_text(&args.seed);
     let bar = console.progress(levels.len() as u64, "judging");
-    // The seed depends on the level, so that a level gets the same answer alone as with other levels.
+    // The seed depends on the level, so that a level is judged the same, alone or with other levels.
     let judge = |level: &Level| {
         let seed = seed.child(&level.digest().to_string(), 0);
         panel.judge(Judging::level(&game, level, seed))
@@ -181,8 +182,8 @@ fn levels(args: &Args, input: &GameInput) -> Result<Vec<Named>, Failure> {
     input.named_levels(&args.levels)
 }
 
-/// Returns the failure for a game that does not compile, with the game's problems and those problems of its
-/// levels that are certain despite them.
+/// Returns the failure for a game that does not compile. Lists the game's problems, and the problems in its
+/// levels that can be determined without the compiled game.
 fn malformed(args: &Args, console: &Console, input: &GameInput, problems: &[Diagnostic]) -> Failure {
     let mut told = vec![diagnostics::in_words(&input.source, problems)];
     let mapping = Some(&input.source.text).filter(|_| !args.as_reference);

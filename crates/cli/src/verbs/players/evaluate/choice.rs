@@ -1,4 +1,4 @@
-//! Choosing levels by their difficulty on a scale, with `--plan`, `--adaptive` and their targets.
+//! The choice of levels by their difficulty on a scale, with `--plan`, `--adaptive` and their targets.
 
 use super::Args;
 use super::player::RequestedPlayer;
@@ -41,8 +41,8 @@ pub(super) struct ChoiceArgs {
         value_parser = number(TARGETS)
     )]
     target_error: Option<f64>,
-    /// Choose as many levels as it takes to detect this difference between two players on the same levels in 80 of 100
-    /// evaluations, in logits
+    /// Choose as many levels as it takes to detect this difference in logits between two players on the same levels in
+    /// 80 of 100 evaluations
     #[arg(
         long,
         value_name = "LOGITS",
@@ -56,7 +56,7 @@ pub(super) struct ChoiceArgs {
     /// Choose this number of episodes; with --target-error and --adaptive, the maximum number
     #[arg(long, value_name = "N", requires = "scale", help_heading = "Choice of levels", value_parser = clap::value_parser!(u64).range(1..=MAX_EPISODES))]
     episodes: Option<u64>,
-    /// The ability that the plan expects, in logits [default: 0, the mean difficulty of the first month]
+    /// The ability that the plan assumes, in logits [default: 0, the mean difficulty of the first month]
     #[arg(
         long,
         value_name = "LOGITS",
@@ -85,7 +85,7 @@ pub(super) enum Choice {
     All,
     /// The levels of a plan. The settings already contain only these levels.
     Planned(Box<Plan>),
-    /// One level after another, each chosen from the results so far.
+    /// One level after another, each chosen based on the results so far.
     Adaptive(Box<AdaptiveChoice>),
 }
 
@@ -108,7 +108,10 @@ pub(super) fn choose(
         settings.max_steps = scale.max_steps;
     }
     if let Some(flags) = settings.apart_from(scale.max_steps) {
-        bail!("{flags}: this scale needs --max-steps {} (track told, --commit 1)", scale.max_steps);
+        bail!(
+            "{flags}: this scale requires --max-steps {}, --commit 1 and the track `told`",
+            scale.max_steps
+        );
     }
     let is_reader = !matches!(requested, RequestedPlayer::Planner(_));
     let levels = ScaledLevels::of(&scale, &settings.games, is_reader).map_err(|level| {
@@ -120,8 +123,8 @@ pub(super) fn choose(
     if !levels.is_linked {
         console.remark(
             "warning: this release has too few anchors to place readers, so `arcade study scale` will not \
-             place the player, and the errors below hold only for comparisons on this release; calibrate it \
-             with two anchors (--readers)",
+             place the player, and the errors below hold only for comparisons on this release; calibrate the \
+             release with two anchors (--readers)",
         );
     }
     if args.choice.adaptive {
@@ -201,7 +204,7 @@ pub(super) fn print(plan: &Plan, settings: &Settings, console: &Console) -> Answ
             numbers.join(", ")
         ));
     }
-    console.say("\nepisodes  games  error  difference shown in 80% of evaluations");
+    console.say("\nepisodes  games  error  difference detected in 80% of evaluations");
     for PlannedErrors { episodes, games, error, difference } in &plan.others {
         console.say(format_args!("{episodes:>8}  {games:>5}  {error:>5.2}  {difference:>10.2}"));
     }
@@ -225,10 +228,12 @@ pub(super) fn words(plan: &Plan) -> String {
     )
 }
 
-/// Records an adaptive evaluation's choices, and returns a sentence stating why the evaluation ended.
+/// Records an adaptive evaluation's choices, and returns a sentence with their number, the ability and its
+/// error.
 pub(super) fn record(choice: &AdaptiveChoice, folder: &Path) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(&json!({ "format": 1, "choices": choice.choices() }));
-    let text = text.map_err(|error| Failure::environment(error, "the choice of levels"))? + "\n";
+    let text =
+        text.map_err(|error| Failure::environment(error, "the choices cannot be written as JSON"))? + "\n";
     whole_file::write(&folder.join(SELECTION_FILE), text.as_bytes())?;
     let (ability, error) = choice.ability();
     Ok(format!(

@@ -376,8 +376,8 @@ fn print_results(
     if limited > 0 {
         let (limited, limit) = (count(limited as usize, "episode"), count(*max_steps as usize, "step"));
         console.remark(format_args!(
-            "{limited} reached the limit of {limit}, and counted as not won. More steps need a new evaluation; --resume cannot \
-             add them."
+            "{limited} reached the limit of {limit}, and counted as not won. To allow more steps, start a new evaluation; \
+             --resume cannot raise the limit."
         ));
     }
     let open = match *open {
@@ -392,7 +392,7 @@ fn print_results(
         });
         let report = names.find(|name| !name.exists()).unwrap_or_default();
         let words = [Path::new("report"), folder, Path::new("--out"), &report];
-        console.say(format_args!("now: {}", shell::command(words)));
+        console.say(format_args!("next: {}", shell::command(words)));
     }
     match halted {
         Some(why) if *infrastructure => Err(Failure::environment(

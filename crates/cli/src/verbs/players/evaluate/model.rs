@@ -61,7 +61,7 @@ pub(crate) struct ConnectedModel {
     reasks: u32,
     /// `true` if the model's price is known. Otherwise, the cost is unknown.
     pub(crate) is_priced: bool,
-    /// The spending so far, with its caps.
+    /// The spending so far, and the caps on it.
     pub(crate) caps: Arc<client::Caps>,
 }
 

@@ -1,4 +1,4 @@
-//! The player requested by the user, and how it connects to the episodes.
+//! The player requested by the user, and its connection to the episodes.
 
 use super::human::Human;
 use super::mailbox::RequestedMailbox;
@@ -183,8 +183,8 @@ impl RequestedPlayer {
         Ok(contestant.into())
     }
 
-    /// Returns the number of concurrent episodes, capped at the total number of episodes. Model episodes
-    /// spend most of their time waiting.
+    /// Returns the number of concurrent episodes, capped at the total number of episodes. It does not depend
+    /// on the number of cores for models, whose episodes spend most of their time waiting.
     pub(super) fn threads(&self, args: &Args, episodes: usize, console: &Console) -> usize {
         let requested = match self {
             RequestedPlayer::Model(_) => args.model.client.concurrency().get(),
@@ -196,14 +196,14 @@ impl RequestedPlayer {
         let episodes = episodes.max(1);
         if threads::jobs().is_some() && requested > episodes {
             console.remark(format_args!(
-                "--jobs {requested}: there are only {episodes} episodes, so {episodes} run at a time"
+                "--jobs {requested}: there are only {episodes} episodes, so only {episodes} run at the same time"
             ));
         }
         requested.min(episodes)
     }
 }
 
-/// Rejects flags that would have no effect, because a user who sets a flag expects it to have one.
+/// Rejects flags that would have no effect, because a user who sets a flag expects an effect.
 pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> Result<(), Failure> {
     if args.budget.is_some() && !matches!(requested, RequestedPlayer::Planner(_)) {
         bail!(

@@ -16,8 +16,8 @@ const MAX_STRATEGY: usize = 1 << 16;
 #[command(next_help_heading = "Prompts (see `arcade docs prompts`)")]
 pub(crate) struct PromptArgs {
     /// A bundle of prompt settings, whose results are never mixed with those of other settings: the default prompts,
-    /// meaningless names, three levels for discovering the rules in place of the rules, or an image in place of the
-    /// board (see `arcade docs tracks`)
+    /// meaningless names, three levels for discovering the rules instead of the rules themselves, or an image instead
+    /// of the board (see `arcade docs tracks`)
     #[arg(long, value_parser = PossibleValuesParser::new(Track::ALL.map(Track::name)).map(track_named))]
     pub(super) track: Option<Track>,
     /// The earlier turns that prompts show [default: zero-shot]
@@ -29,7 +29,7 @@ pub(crate) struct PromptArgs {
     /// The form of the rules in prompts
     #[arg(long, value_parser = named::<Rules, 3>(["described", "vgdl", "none"]), default_value = "described")]
     rules: Rules,
-    /// Aids to add to the defaults
+    /// Aids (optional parts of a prompt) to add to the defaults
     #[arg(long, value_enum, value_delimiter = ',', value_name = "AID")]
     with: Vec<Aid>,
     /// Aids to leave out
@@ -38,7 +38,8 @@ pub(crate) struct PromptArgs {
     /// Give sprites meaningless names
     #[arg(long)]
     masked_names: bool,
-    /// Give each state of the avatar its own character, and do not reveal which one is the player's
+    /// Give each state of the avatar a different character, and do not reveal which characters stand for the
+    /// player
     #[arg(long)]
     identity_tracking: bool,
     /// Shuffle the board's characters, with this number as the seed
@@ -82,7 +83,7 @@ enum Aid {
     Grid,
     /// The cells around the avatar, and the nearest things
     Grounding,
-    /// All things with their positions
+    /// All things and their positions
     Coordinates,
     /// The board again, rotated by a quarter turn
     Rotated,
@@ -105,7 +106,7 @@ impl PromptArgs {
         if let Some(mode) = self.mode {
             if track == Track::Discover && mode != settings.mode {
                 bail!(
-                    "--mode {} contradicts the track `{}`, whose levels are one conversation; leave out one of the two",
+                    "--mode {} contradicts the track `{}`, whose levels form one conversation; leave out one of the two",
                     mode.name(),
                     track.name()
                 );

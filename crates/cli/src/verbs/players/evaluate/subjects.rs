@@ -207,7 +207,7 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
         let shown = |file: &str| place.join(path(file)).in_message().to_string();
         let card = files.text(&path("card.json"), MAX_CARD)?;
         let card: Card = serde_json::from_str(&card)
-            .map_err(|error| malformed!("{}: not a card: {error}", shown("card.json")))?;
+            .map_err(|error| malformed!("{}: not a valid card: {error}", shown("card.json")))?;
         let source = files.text(&path("game.vgdl"), MAX_SOURCE)?;
         let mut levels = Vec::new();
         for (number, level) in card.levels.iter().enumerate().filter(|(number, _)| args.wants(*number)) {

@@ -22,8 +22,9 @@ use std::path::{Path, PathBuf};
 
 /// Measures the difficulty of the levels of a release on one scale for all months (see `arcade docs scale`).
 ///
-/// Examinees that never change play every level, with randomness that no mint uses. DIR gets scale.json, and plays/ with one
-/// results folder per examinee. With --scale, the release is added to an earlier scale, whose examinees play.
+/// Examinees that never change play every level, with randomness that no mint uses. The command writes to DIR:
+/// scale.json, and plays/ with one results folder per examinee. With --scale, the release is added to an earlier scale,
+/// whose examinees play.
 ///
 /// Exit status 0: calibrated. 2: malformed input. 3: the disk failed; --resume continues. 128 + signal: interrupted;
 /// --resume continues.
@@ -37,10 +38,10 @@ pub(crate) struct Args {
     /// Folder for scale.json and the episodes (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// The scale that the release is added to
+    /// The scale to add the release to
     #[arg(long, value_name = "FILE")]
     scale: Option<PathBuf>,
-    /// Results to include, written by `arcade evaluate`, from readers: models whose versions do not change
+    /// Results of readers (models whose versions do not change) to include, written by `arcade evaluate`
     #[arg(long, value_name = "RESULTS", num_args = 1..)]
     readers: Vec<PathBuf>,
     /// Number of episodes per examinee and level
@@ -76,7 +77,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let Subjects { snapshot, games, .. } = subjects::read(&wanted)?;
     let max_steps = args.max_steps.or(earlier.as_ref().map(|scale| scale.max_steps)).unwrap_or(500);
     if let Some(scale) = earlier.as_ref().filter(|scale| scale.max_steps != max_steps) {
-        bail!("--max-steps {max_steps}: the scale was calibrated with {}; omit it", scale.max_steps);
+        bail!("--max-steps {max_steps}: the scale was calibrated with {}; omit --max-steps", scale.max_steps);
     }
     let examinees = examinees(earlier.as_ref(), &args.scale)?;
     let plays_folder = args.out.join("plays");
@@ -84,7 +85,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     if args.resume != is_begun {
         match args.resume {
             true => bail!("there is nothing to resume in {}; omit --resume to start", args.out.in_message()),
-            false => bail!("{} holds a calibration; pass --resume to continue it", args.out.in_message()),
+            false => bail!("{} contains a calibration; pass --resume to continue it", args.out.in_message()),
         }
     }
     protected::check(&args.out)?;

@@ -19,16 +19,16 @@ use std::path::PathBuf;
 
 /// Tests whether players have seen the games of a release, or their published solutions.
 ///
-/// In a sealed release whose recipe has [memory], coin tosses decided which of two renamings of each game was
-/// published, and which of two wins of each level; the other one is withheld. A player that has never seen the
-/// published ones cannot tell the two apart, so the tests are exact. Does the player win more often on the published
-/// games than on their siblings? Do its episodes begin like the published wins rather than the withheld ones? At most
-/// 1% of clean models are flagged. The tests are valid for models trained before the full reveal (see
-/// `arcade docs memory`). An open release, such as `starter`, has no coins and cannot be tested. Without RESULTS,
-/// prints what the tests could detect if every level were played once.
+/// In a sealed release whose recipe has [memory], coin tosses decided which of two renamings of each game, and which of
+/// two wins of each level, was published. The other one is withheld. A player that has never seen the published one
+/// cannot tell the two apart, so the tests are exact. Does the player win more often on the published games than on
+/// their siblings? Do its episodes begin like the published wins rather than the withheld ones? At most 1% of clean
+/// models are flagged. The tests are valid for models trained before the full reveal (see `arcade docs memory`). An
+/// open release, such as `starter`, has no coins and cannot be tested. Without RESULTS, prints what the tests could
+/// detect if every level were played once.
 ///
-/// Exit status 0: consistent with not having seen the release, or too few coins to tell. 1: a player has seen something. 2:
-/// malformed input, or nothing could be tested.
+/// Exit status 0: consistent with not having seen the release, or too few coins to tell. 1: a player has seen part of
+/// the release. 2: malformed input, or nothing could be tested.
 ///
 /// Example: arcade study contamination results/a-model results/a-model-siblings --release releases/2027-01
 #[derive(clap::Args)]
@@ -91,7 +91,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(!players.iter().any(|player| player.evidence.is_seen()))
 }
 
-/// Returns a revealed release's coins (the random choices of which of two equivalent items it published).
+/// Returns a revealed release's coins: the random choices that decided which of two equivalent items was
+/// published.
 fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let manifest = &released.manifest;
     let (name, place) = (&manifest.name, args.release.in_message());

@@ -64,8 +64,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(found.iter().all(is_placed))
 }
 
-/// Returns one line per difference between the player's episodes and the episodes on which the scale is
-/// based.
+/// Returns one line for each difference in settings because of which some of the player's episodes were left
+/// out.
 pub(crate) fn left_out(player: &str, left_out: &BTreeMap<String, u64>, max_steps: u64) -> Vec<String> {
     let line = |(flags, &episodes): (&String, &u64)| {
         let (episodes, were) =
@@ -87,8 +87,8 @@ fn words(month: &MonthAbility) -> String {
         let anchors = count(*anchors as usize, "anchor");
         return format!(
             "not placed ({played}): the release is linked by planners and {anchors}, and the correlation \
-             between the difficulty for planners and for readers {low}; calibrate it with at least two \
-             anchors, readers that played the first release too (--readers)"
+             between the difficulty for planners and for readers {low}; calibrate the release with at \
+             least two anchors, which are readers that also played the first release (--readers)"
         );
     }
     let (Some(found), Some(error)) = (month.ability, month.error) else {

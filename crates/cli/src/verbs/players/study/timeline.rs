@@ -1,4 +1,4 @@
-//! `arcade study timeline`: shows a year of months on one page.
+//! `arcade study timeline`: shows all months of a scale on one page.
 
 use super::scale::left_out;
 use crate::console::Console;
@@ -15,9 +15,10 @@ use std::path::PathBuf;
 
 /// Shows the months of a scale on one page: abilities of players over the months, difficulties, drift, and who played what.
 ///
-/// Use the scale with the latest month, which includes all earlier ones. Results may be from any of its months, in any order. The
-/// results that calibrated it, in plays/ beside each scale.json, show how constant the examinees are. DIR gets timeline.html (one
-/// file, for any browser), timeline.json, and every table as tables/*.csv and tables/*.tex (see `arcade docs timeline`).
+/// Use the scale with the latest month, which includes all earlier ones. Results may be from any of its months, in any
+/// order. The results that calibrated it, in plays/ beside each scale.json, show how constant the examinees are. The
+/// command writes to DIR: timeline.html (one file, for any browser), timeline.json, and every table as tables/*.csv and
+/// tables/*.tex (see `arcade docs timeline`).
 ///
 /// Exit status 0: written. 2: malformed input.
 ///

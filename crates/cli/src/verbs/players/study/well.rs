@@ -15,10 +15,10 @@ use validators::novelty::GameForm;
 
 /// Simulates a chain of monthly releases with rules only, and measures how many new games are left.
 ///
-/// Each month draws the invented games of the recipe as minting does: it knows all games of the earlier months,
-/// prefers the mechanics that they used least, and rejects rules close to theirs or to the corpus. No boards are
-/// made. Instead, a fraction of the rules fails, chosen by the seed. Without RECIPE, a month has 100 games. `arcade
-/// docs well` explains the columns.
+/// Each month draws the invented games of the recipe as minting does: it knows all games of the earlier months, prefers
+/// the mechanics that they used least, and rejects rules close to theirs or to the corpus. No boards are made. Instead,
+/// a fraction of the rules, chosen by the seed, is assumed to fail. Without RECIPE, a month has 100 games. `arcade docs
+/// well` explains the columns.
 ///
 /// Exit status 0: simulated. 2: malformed input.
 ///

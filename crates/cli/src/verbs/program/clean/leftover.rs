@@ -20,7 +20,7 @@ pub(super) enum LeftoverKind {
     /// The unfinished folder of a release, report or export. If it contains finished jobs, the interrupted
     /// run can be resumed.
     Draft(Abandoned),
-    /// A release shard, with its description.
+    /// A release shard and its description.
     Shard(String),
     /// An unfinished file. While this value holds it open, other processes do not consider it abandoned.
     File(#[expect(dead_code, reason = "the open file holds the lock")] File),
@@ -98,7 +98,7 @@ fn is_drawn(text: &str) -> bool {
 
 /// The name prefix of players' scratch folders.
 const SCRATCH: &str = "arcade-player-";
-/// The age from which a scratch folder can no longer belong to a player that is just starting.
+/// The minimum age at which a scratch folder cannot belong to a player that is just starting.
 const SETTLED: Duration = Duration::from_secs(3600);
 
 /// Returns the scratch folders of terminated players in the system's temporary folder. The list is empty on
@@ -162,7 +162,7 @@ fn working_folders() -> Option<Vec<PathBuf>> {
     let processes = fs::read_dir("/proc").ok()?;
     let folders: Vec<PathBuf> =
         processes.flatten().filter_map(|process| fs::read_link(process.path().join("cwd")).ok()).collect();
-    // This process itself has a working folder, so an empty list means that the system hides them.
+    // This process itself has a working folder, so an empty list means that the system hides working folders.
     (!folders.is_empty()).then_some(folders)
 }
 

@@ -4,11 +4,11 @@ use super::probe;
 use snapshots::Corpus;
 use snapshots::mint::{Forecast, Job, Plan};
 
-/// The expected duration, in seconds on one core, from which a mint prints how to resume it.
+/// The minimum expected duration of a mint, in seconds on one core, for printing the command that resumes it.
 pub(crate) const LONG: f64 = 30.0;
 
-/// The expected duration, in seconds on one core, from which it is worth spending a third of a second on
-/// measuring the machine's speed.
+/// The minimum expected duration of a mint, in seconds on one core, for which measuring the machine's speed
+/// is worth a third of a second.
 const PROBED: f64 = 30.0;
 
 /// Returns the cost of jobs on this machine. If the machine's speed was probed, also returns its slowdown

@@ -218,7 +218,7 @@ fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answ
             let jobs = base::count(jobs, "job");
             console.say(format_args!("shard {shard} of `{}`: {jobs}, in {place}", order.recipe.name));
             if order.secret.is_some() {
-                console.say("keep it private: it contains winning episodes");
+                console.say("keep the shard private: it contains winning episodes");
             }
             let secret = if order.secret.is_some() { " --secret FILE" } else { "" };
             console.say(format_args!("once all shards are made: arcade merge SHARD... --out DIR{secret}"));

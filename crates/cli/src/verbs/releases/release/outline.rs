@@ -76,7 +76,7 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
         Some(other) => return Err(other.into()),
         None if there > 0 && !resume => {
             console.say(format_args!(
-                "which holds an interrupted mint with {there} of the jobs finished: continue with --resume"
+                "which contains an interrupted mint with {there} of the jobs finished: continue with --resume"
             ));
         }
         None => {}

@@ -6,7 +6,7 @@ use cpu_time::ThreadTime;
 use engine::{Game, Level};
 use snapshots::{Corpus, CorpusGame};
 
-/// The probe's games, about pushing, chasing and shooting.
+/// The probe's games, which are about pushing, chasing and shooting.
 const GAMES: [&str; 3] = ["dormouse-millrace", "bellwether-down", "hailglass"];
 /// The number of ticks per episode.
 const TICKS: usize = 200;

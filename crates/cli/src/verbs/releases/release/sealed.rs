@@ -78,7 +78,7 @@ pub(super) fn commit(
         None if Path::new("log").exists() => entered.push(OsStr::new("--first")),
         None => {}
     }
-    console.say(format_args!("if you keep a log, append it first:  {}", log_command(entered)));
+    console.say(format_args!("if you keep a log, append the commitment first:  {}", log_command(entered)));
     console.say(format_args!("mint it with:  {}", mint_command(recipe, &out, parent)));
     console.say(format_args!(
         "keep {shown} private and do not lose it: the release cannot be minted without it",

@@ -104,7 +104,7 @@ fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
         )),
         true => console.say(format_args!("the set follows from keys-1.json; digest {}", set.digest()?)),
         false => console.say(format_args!(
-            "readers do NOT follow it yet: sign with  arcade trust keys {} --secret FILE...",
+            "readers do NOT follow this set yet: sign it with  arcade trust keys {} --secret FILE...",
             crate::shell::quoted(&args.folder)
         )),
     }

@@ -101,7 +101,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         [] => console.say(crate::input::trusted::sentence(&signed)),
         problems => {
             problems.iter().for_each(|problem| console.say(problem));
-            console.say("more keys must sign: pass the folder on, and run the same command with their keys");
+            console.say("more keys must sign: pass the folder on to their holders, who run the same command");
         }
     }
     Ok(signed.problems.is_empty())

@@ -33,8 +33,8 @@ use trust::Signed;
 /// With --chain, follows the roots back through the earlier releases. With --item and --write-proof, writes a small file that
 /// proves one file or one game. With --item, --proof and --root, checks such a proof against the file or the game's folder alone.
 ///
-/// Exit status 0: sound. 1: not sound, with every problem listed, or not replayed, or not checked because the bound
-/// is too small. 2: not a snapshot.
+/// Exit status 0: sound. 1: not sound (with every problem listed), not replayed, or not checked because the bound is
+/// too small. 2: not a snapshot.
 ///
 /// Example: arcade verify releases/starter
 #[derive(clap::Args)]
@@ -171,16 +171,20 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
              the release is revealed"
         )),
         Witnesses::NotReplayed { semantics } => {
-            let newer = if *semantics > engine::SEMANTICS { "a newer arcade, " } else { "an arcade " };
+            let newer = if *semantics > engine::SEMANTICS {
+                "a newer version of arcade, with"
+            } else {
+                "a version of arcade with"
+            };
             console.say(format_args!("{name}: the manifest and {files}, {games}, {levels}"));
             console.say(format_args!(
-                "integrity: ok, witnesses: not replayed (needs {newer}of semantics {semantics}; this one has {})",
+                "integrity: ok, witnesses: not replayed (needs {newer} semantics {semantics}; this one has {})",
                 engine::SEMANTICS
             ));
             console.say(match args.accept_unreplayed {
                 true => format!("{name}: accepted without replaying its witnesses"),
                 false => format!(
-                    "{name}: NOT verified: nothing shows that its levels can be won; use the arcade that minted it, or \
+                    "{name}: NOT verified: nothing shows that its levels can be won; use the version of arcade that minted it, or \
                      accept that with --accept-unreplayed"
                 ),
             });
@@ -247,7 +251,7 @@ fn one_line(problem: &str) -> String {
 pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     if manifest.semantics != engine::SEMANTICS {
         console.remark(format_args!(
-            "note: the witnesses of {} were not replayed: they need an arcade of semantics {}, and this one has {}",
+            "note: the witnesses of {} were not replayed: they need a version of arcade with semantics {}, and this one has {}",
             manifest.name,
             manifest.semantics,
             engine::SEMANTICS

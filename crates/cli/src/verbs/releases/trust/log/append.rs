@@ -23,8 +23,8 @@ use trust::{Anchor, Drawn, KeySet, MAX_BEACON, Signatures, read_bounded};
 /// Appends entries to a log, or starts one. Entries are appended in the order of the flags in this help.
 ///
 /// An entry is rejected if it contradicts the log: a second commitment or root for the same name, a beacon that was
-/// known before the commitment, a release that differs from the committed one. An entry is also rejected if a later
-/// one would have to contradict it. A commitment needs --parent, the release before it, or --first. A release needs a
+/// known before the commitment, a release that differs from the committed one. An entry is also rejected if a later one
+/// would have to contradict it. A commitment needs --parent (the release before it) or --first. A release needs a
 /// signature, or --unsigned. The files are complete before the new state is signed, so a power failure leaves the log
 /// unchanged.
 ///
@@ -58,7 +58,7 @@ pub(crate) struct Args {
     /// Public randomness values, as JSON files
     #[arg(long, value_name = "FILE", num_args = 1..)]
     beacon: Vec<PathBuf>,
-    /// Releases, in folders or archives
+    /// Releases, as folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
     /// Append unsigned releases, whose entries do not refer to a signed statement
@@ -301,7 +301,7 @@ fn reveal(place: &Path) -> Result<Entry, Failure> {
         let held = place.join("held");
         let join = shell::command([verb, public.as_os_str(), reveal, held.as_os_str(), out]);
         bail!(
-            "`{}` holds a release that is not revealed: join its two parts with `{join} DIR`, and pass DIR",
+            "`{}` contains a release that is not revealed: join its two parts with `{join} DIR`, and pass DIR",
             place.in_message()
         );
     }

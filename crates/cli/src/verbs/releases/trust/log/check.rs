@@ -22,7 +22,7 @@ use trust::{PublicKey, TrustError, read_bounded};
 /// Example: arcade trust log check log --key log.pub --seen log.seen --save log.seen --month 2027-03
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The log's folder; not with --proof and --growth
+    /// The log's folder; not allowed with --proof or --growth
     #[arg(value_name = "LOG", required_unless_present_any = ["proof", "growth"], conflicts_with_all = ["proof", "growth"])]
     log: Option<PathBuf>,
     /// The public key of the log
@@ -37,7 +37,7 @@ pub(crate) struct Args {
     /// The month whose release must be in the log by now, such as 2027-03
     #[arg(long, value_name = "MONTH", value_parser = month, conflicts_with_all = ["proof", "growth"])]
     month: Option<String>,
-    /// Releases that must be in the log, in folders or archives
+    /// Releases that must be in the log, as folders or archives
     #[arg(long, value_name = "SNAPSHOT", num_args = 1.., conflicts_with_all = ["proof", "growth"], value_parser = crate::paths::release_parser())]
     release: Vec<PathBuf>,
     /// Results folders whose rows must be in the log; every episode is replayed, and its games are compared with those of the

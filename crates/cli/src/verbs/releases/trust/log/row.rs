@@ -18,7 +18,7 @@ pub(super) fn of(folder: &Path, entries: &[Entry]) -> Result<ResultRow, Failure>
     let settings = &evaluation.settings;
     let shown = folder.in_message();
     let Some(root) = settings.snapshot else {
-        bail!("`{shown}`: these are not results on a release; evaluate a release folder");
+        bail!("`{shown}`: these results do not belong to a release; evaluate a release folder");
     };
     let release = entries.iter().find_map(|entry| match entry {
         Entry::Root { release, root: found, .. } if *found == root => Some(release.clone()),
