@@ -208,7 +208,7 @@ mod tests {
         }
         let mut seeded = ModelOptions::new("anthropic:m");
         seeded.decoding.seed = Some(1);
-        assert!(problem(&seeded, &all_keys).contains("no sampling seed"));
+        assert!(problem(&seeded, &all_keys).contains("does not support a sampling seed"));
     }
 
     #[test]

@@ -386,7 +386,7 @@ fn the_line_that_keeps_a_level_from_being_won_is_named() {
     for words in [
         "; the level can be won without `duckling pond > killSprite`: a search wins it in 13 ticks",
         "(./game.vgdl:20)\n",
-        "where a `raft` is, too; tick ",
+        "where there is also a `raft`; tick ",
         "try: move `duckling pond > killSprite` below `duckling raft > shieldFrom",
         "the reachable state closest to a win: 1 nest left",
         // The author's own characters.
