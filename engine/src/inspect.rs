@@ -1,6 +1,6 @@
-//! Internal data of games and states, for readers of the engine and for this crate's tests, which play whole
-//! games and therefore run against the library (`tests/it`). This data follows the engine's internal design
-//! and may change at any time.
+//! Internal data of games and states, for people who study the engine and for this crate's tests, which play
+//! whole games and therefore run against the library (`tests/it`). This data follows the engine's internal
+//! design and may change at any time.
 
 use crate::analysis::EffectSummary;
 use crate::numbers::geometry::Direction;
@@ -62,12 +62,13 @@ pub fn stored_sprites(state: &State) -> (usize, usize) {
     (state.world.slot_count(), state.world.fixture_count())
 }
 
-/// Returns the number of sets of rarely changed values: one set per type, and the sets that sprites own.
+/// Returns the number of sets of rarely changed values: one set per type, plus one per sprite with its own
+/// set.
 pub fn overrides(state: &State) -> usize {
     state.world.overrides_count()
 }
 
-/// Returns the number of ticks between two moves, for each sprite in flight.
+/// Returns, for each sprite in flight, the number of ticks between two moves.
 pub fn flight_periods(state: &State) -> impl Iterator<Item = u16> {
     state.schedule.flying().map(|slot| state.world.sprite(slot).period)
 }

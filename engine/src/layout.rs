@@ -5,7 +5,7 @@
 //! folder. Alternatively, as in the public games, it is named `zelda_lvl3.txt` and is next to `zelda.vgdl` or
 //! `zelda.txt`. Names are case-insensitive, and numbers may have gaps.
 
-/// The names of the files with a game and its levels, all in the same folder.
+/// The names of a game's file and its level files, all in the same folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GameFiles {
     /// The file with the rules.
@@ -22,9 +22,9 @@ pub fn level_number(name: &str) -> Option<usize> {
     level(name).map(|(_, number)| number)
 }
 
-/// Returns the games in a folder with these files, sorted by name. If `game.vgdl` or `game.txt` exists, it is
-/// the only game. If neither exists, every file with levels of its own is a game; and if no file has any,
-/// every `.vgdl` file is a game.
+/// Returns the games in a folder that contains the given files, sorted by name. If `game.vgdl` or `game.txt`
+/// exists, it is the only game. If neither exists, every file with its own levels is a game. If no file has
+/// its own levels, every `.vgdl` file is a game.
 pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
     let mut names: Vec<&str> = names.into_iter().collect();
     names.sort_unstable();
@@ -47,7 +47,8 @@ pub fn games<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<GameFiles> {
         .collect()
 }
 
-/// Returns the levels that belong to the game `source` among the files in its folder, sorted by number.
+/// Returns, sorted by number, the level files that belong to the game `source`. `names` contains the files in
+/// the game's folder.
 pub fn levels<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(usize, String)> {
     let names: Vec<&str> = names.into_iter().collect();
     let takes_plain = takes_plain(source, &names);
@@ -108,8 +109,8 @@ pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
     })
 }
 
-/// Returns the files that are games, judging by their names or by the names of levels, in a folder that has
-/// neither `game.vgdl` nor `game.txt`.
+/// Returns the game files in a folder that has neither `game.vgdl` nor `game.txt`, judging by their own names
+/// or by the names of level files.
 fn sources<'a>(names: &[&'a str]) -> Vec<&'a str> {
     let candidates = || names.iter().copied().filter(|name| is_source(name));
     let with_levels: Vec<&str> = candidates().filter(|name| owns_levels(name, names)).collect();
@@ -175,7 +176,7 @@ fn is_game(name: &str) -> bool {
     is_source(name) && stem(name).eq_ignore_ascii_case("game")
 }
 
-/// Returns the game in a level's file name, if any, and the level's number.
+/// Returns the game's name in a level's file name, if any, and the level's number.
 fn level(name: &str) -> Option<(Option<&str>, usize)> {
     let stem = stem(name);
     let numbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -65,6 +65,6 @@ pub use syntax::Description;
 pub use tick::{Meeting, Removal, Watch};
 pub use world::{SearchKey, StateHash};
 
-/// The version of the engine's semantics, which is incremented when any golden trace changes, because a
-/// witness replays only under the version with which it was recorded.
+/// The version of the engine's semantics. It is incremented when any golden trace changes, because a witness
+/// replays only under the version with which it was recorded.
 pub const SEMANTICS: u32 = 3;

@@ -4,7 +4,7 @@
 
 /// The maximum length of a game's text in bytes. A typical game contains a few kilobytes.
 pub const MAX_SOURCE: usize = 1 << 17;
-/// The maximum length in bytes of one line in a game, without its indent and comment.
+/// The maximum length in bytes of one line in a game, excluding indentation and comment.
 pub const MAX_LINE: usize = 2048;
 /// The maximum length in bytes of a sprite type's name.
 pub const MAX_NAME: usize = 128;
@@ -14,7 +14,7 @@ pub const MAX_NESTING: usize = 32;
 pub const MAX_TYPES: usize = 512;
 /// The maximum number of parameters of a sprite type, including inherited ones.
 pub const MAX_PARAMETERS: usize = 256;
-/// The maximum number of names in one parameter on a sprite type.
+/// The maximum number of names in one parameter of a sprite type.
 pub const MAX_LIST: usize = 64;
 /// The maximum number of interactions in a game. An interaction counts once for each partner and each
 /// repetition.
@@ -30,7 +30,7 @@ pub const MAX_PROBLEMS: usize = 100;
 
 /// The maximum length of a level's text in bytes.
 pub const MAX_LEVEL_TEXT: usize = 1 << 18;
-/// The maximum number of columns, and of rows, in a level.
+/// The maximum number of columns in a level, and the maximum number of rows.
 pub const MAX_SIDE: usize = 512;
 /// The maximum number of cells in a level.
 pub const MAX_CELLS: usize = 1 << 16;
@@ -55,7 +55,8 @@ pub const MAX_WORK: usize = 1 << 18;
 pub const EFFECT_WORK: usize = 8;
 /// The maximum number of simultaneously pending timers.
 pub const MAX_TIMERS: usize = 1 << 16;
-/// The maximum number of holdings across all sprites. Each resource type that a sprite holds counts once.
+/// The maximum total number of holdings of all sprites. Each resource type that a sprite holds counts as one
+/// holding.
 pub const MAX_HELD: usize = 1 << 14;
 /// The maximum number of sprite names in an observation, counting each name once per cell.
 pub const MAX_SEEN: usize = 1 << 20;

@@ -16,8 +16,8 @@ impl Game {
         self.start_with(level, Chance::from_seed(seed))
     }
 
-    /// Starts an episode like [`Game::start`], but with a given random number generator, such as a trace's
-    /// generator.
+    /// Starts an episode like [`Game::start`], but with a given random number generator, such as the one
+    /// recorded in a trace.
     pub fn start_with(&self, level: &Level, chance: Chance) -> State {
         let rules = &self.0.rules;
         let mut world =
@@ -86,8 +86,8 @@ impl Game {
     }
 
     /// Plays one tick like [`Game::step`], but without the scheduler: the plain cycle of `spec/01` §4. Tests
-    /// compare the scheduled step with this one, which counts more work towards the limit and costs
-    /// O(sprites + cells) more.
+    /// compare this method with the scheduled step. This method counts more work towards the limit, and takes
+    /// O(sprites + cells) more time.
     #[doc(hidden)]
     pub fn step_unscheduled(&self, state: &mut State, action: Action, watch: &mut impl Watch) -> Outcome {
         if state.is_over() {

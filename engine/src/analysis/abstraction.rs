@@ -1,4 +1,5 @@
-//! State abstractions, which state the parts of a state that a search can ignore when it compares successors.
+//! State abstractions, which define the parts of a state that a search can ignore when it compares
+//! successors.
 
 use super::Analysis;
 use super::futures::PossibleFutures;
@@ -11,7 +12,7 @@ use crate::rules::{SpriteType, TypeInfo};
 use crate::state::State;
 use crate::world::SearchKey;
 
-/// The state abstraction for a search that starts from one state, the root state.
+/// The state abstraction for a search from a single state, the root state.
 ///
 /// In addition to the parts that [`State::search_key`] omits, the key omits:
 /// - sprites of types that nothing changes, creates or removes, because these sprites are the same in all
@@ -34,16 +35,16 @@ pub struct StateAbstraction {
 }
 
 impl StateAbstraction {
-    /// Returns `true` if keys omit the tick even though the game can be lost by reaching some tick. In that
-    /// case, if two states have the same key and the later state can be won, so can the earlier one. A search
-    /// that visits states in tick order, such as breadth-first search, therefore loses nothing by dropping
-    /// the later state.
+    /// Returns `true` if keys omit the tick even though the game can be lost at some tick. In that case, if
+    /// two states have the same key and the game can be won from the later state, it can also be won from the
+    /// earlier one. A search that visits states in tick order, such as breadth-first search, therefore loses
+    /// nothing by dropping the later state.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }
 
-    /// Returns the same abstraction, but with keys that omit the random state, for searches that assume a
-    /// single random future for all states. States with equal keys may then have different futures.
+    /// Returns the same abstraction, but with keys that omit the random state, for searches that assume the
+    /// same random future for all states. States with equal keys may then have different futures.
     #[must_use]
     pub fn without_chance(self) -> StateAbstraction {
         StateAbstraction { chance: false, ..self }

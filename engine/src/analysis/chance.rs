@@ -20,8 +20,8 @@ use std::collections::BTreeSet;
 impl Analysis {
     /// Returns `true` if randomness can have an effect in some level. If the result is `false`, the same
     /// actions always produce the same sprites, scores and outcomes. Draws with a certain outcome do not
-    /// count, so the result can be `false` even if [`Game::is_deterministic`](crate::Game::is_deterministic)
-    /// is `false`, too.
+    /// count, so this method and [`Game::is_deterministic`](crate::Game::is_deterministic) can both return
+    /// `false`.
     pub fn is_stochastic(&self) -> bool {
         self.is_stochastic
     }
@@ -61,7 +61,7 @@ pub(super) fn draws(rules: &Rules, futures: &PossibleFutures<'_>, state: Option<
 }
 
 /// The maximum number of target types to examine, and the maximum number of rounds per examination. Beyond
-/// these limits, the search for a proof gives up.
+/// either limit, the search for a proof is abandoned.
 const MAX_TARGETS: usize = 16;
 const MAX_ROUNDS: usize = 16;
 
@@ -89,7 +89,7 @@ impl<'a> Outlook<'a> {
         self.rules.types.get(stype.index()).map_or(&[], |info| &info.tree)
     }
 
-    /// Returns the effects that can run, each with the types of its two sides as written in the rules.
+    /// Returns the effects that can run, each with the first and second type as written in its rule.
     fn effects(self) -> impl Iterator<Item = (Option<SpriteType>, Option<SpriteType>, &'a Summary)> {
         let summary = move |effect: u16| &*self.rules.effects[usize::from(effect)].summary;
         let met = self.futures.encounters().iter().zip(&self.futures.live).filter(|(_, live)| **live);
@@ -135,8 +135,8 @@ impl<'a> Outlook<'a> {
         }
     }
 
-    /// Returns `true` if a sprite can have the orientation that makes a RandomMissile draw a new one. Sprites
-    /// may pass this orientation on to other sprites.
+    /// Returns `true` if a sprite can have [`Direction::NIL`] as its orientation, which makes a RandomMissile
+    /// draw a direction. Sprites may pass `NIL` on to other sprites.
     fn can_be_unoriented(&self) -> bool {
         let types = self.rules.types.iter().enumerate();
         let mut unset = types.filter(|(_, info)| info.traits.orientation == Direction::NIL);
@@ -167,7 +167,7 @@ impl<'a> Outlook<'a> {
     }
 
     /// Returns the types to which a portal of the given type leads. A spawner leads to the types that it
-    /// creates, which rules may change.
+    /// creates, and rules may change those types.
     fn exits(&self, portal: SpriteType) -> Vec<SpriteType> {
         let info = self.info(portal);
         let mut exits: Vec<SpriteType> = info.leads_to().into_iter().collect();
@@ -192,10 +192,10 @@ impl<'a> Outlook<'a> {
         few && !self.futures.made[stype.index()]
     }
 
-    /// Returns `true` only if a sprite of the type or of its relatives exists whenever sprites are updated.
-    /// Such a sprite must exist now. Either the sprites of its type are never removed, or removing the last
-    /// of them ends the game. This suffices because sprites are removed only after a tick's updates, just
-    /// before terminations are checked.
+    /// Returns `true` only if a sprite of the type or of a related type exists whenever sprites are updated.
+    /// Such a sprite must exist now. In addition, the sprites of its type must never be removed, or removing
+    /// the last of them must end the game. This suffices because sprites are removed only after a tick's
+    /// updates, just before terminations are checked.
     fn is_always_there(&self, stype: SpriteType) -> bool {
         let family = self.tree(stype);
         let lasting = self.lasting(family);
@@ -233,7 +233,7 @@ impl<'a> Outlook<'a> {
 
     /// Returns, for each type, whether the type is in `family` and permanent. A permanent type's sprites
     /// never leave the board, except by turning into sprites of another permanent type in `family`. Dead
-    /// avatars count as staying.
+    /// avatars stay on the board.
     fn lasting(&self, family: &[SpriteType]) -> Vec<bool> {
         let mut lasting = vec![false; self.rules.types.len()];
         for stype in family {

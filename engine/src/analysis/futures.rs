@@ -37,7 +37,7 @@ pub(super) struct PossibleFutures<'a> {
 pub(super) struct Start {
     /// The types that have sprites at the start.
     pub(super) existing: Vec<SpriteType>,
-    /// The types that existing sprites create in addition to those implied by their own types.
+    /// The types that existing sprites create in addition to those that all sprites of their types create.
     pub(super) making: Vec<SpriteType>,
     /// The scheduled timed effects.
     pub(super) scheduled: Vec<u16>,
@@ -180,8 +180,8 @@ impl<'a> PossibleFutures<'a> {
         new
     }
 
-    /// Records that a sprite can hold this amount of a resource, if the resource's limit allows it. Returns
-    /// `true` if this was not known before.
+    /// Records that a sprite can hold the given amount of a resource, if the resource's limit allows it.
+    /// Returns `true` if this was not known before.
     fn hold(&mut self, resource: SpriteType, amount: i32) -> bool {
         let fits = resource != SpriteType::NONE && self.is_within(resource, amount);
         let Some(held) = self.held.as_mut().filter(|_| fits) else { return false };
@@ -220,8 +220,8 @@ impl<'a> PossibleFutures<'a> {
         info.class.is_some_and(|class| class.is_a(SpriteClass::Spreader)) || info.traits.prob > 0.0
     }
 
-    /// Returns `true` if sprites of a type leave sprites of type 0 (`wall`) behind, regardless of their
-    /// parameters. All sprites of such a type except the first do so.
+    /// Returns `true` if all sprites of a type except the first leave sprites of type 0 (`wall`) behind,
+    /// regardless of the type's parameters.
     fn leaves_walls(&self, stype: usize) -> bool {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
@@ -230,8 +230,8 @@ impl<'a> PossibleFutures<'a> {
     /// types.
     fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
         let traits = &self.rules.types[maker].traits;
-        // The type facts omit undeclared types, so if there is one, the lists of created types and of
-        // ammunition do not correspond.
+        // The type facts omit undeclared types. If the traits contain one, the list of created types and the
+        // list of ammunition no longer correspond.
         let matched = !traits.stypes.contains(&SpriteType::NONE);
         traits.ammo.get(kind).copied().filter(|&ammo| matched && ammo != SpriteType::NONE)
     }
@@ -245,7 +245,7 @@ impl<'a> PossibleFutures<'a> {
         made.chain(self.leaves_walls(maker).then_some((SpriteType(0), None))).collect()
     }
 
-    /// Returns the interactions that the entries of [`PossibleFutures::live`] refer to.
+    /// Returns the interactions to which the entries of [`PossibleFutures::live`] refer.
     pub(super) fn encounters(&self) -> &'a [Encounter] {
         self.encounters
     }

@@ -208,20 +208,20 @@ impl Analysis {
     }
 
     /// Returns `false` only if the rules prove that no level can ever contain a sprite of the type. Unlike
-    /// [`Facts::possible`], the result also covers levels that use `w` or `A` although the game does not use
+    /// [`Facts::possible`], the result also covers levels that use `w` or `A` even if the game does not use
     /// that character.
     pub fn can_exist(&self, stype: SpriteType) -> bool {
         self.exists[stype.index()]
     }
 
     /// Returns the possible types of the player's avatar, starting with the types that levels can place. If
-    /// the list is empty, the engine finds no avatar when a level starts, and no key has an effect.
+    /// the list is empty, the engine finds no avatar when a level starts, and pressing keys has no effect.
     pub fn avatars(&self) -> &[Avatar] {
         &self.avatars
     }
 
-    /// Returns the avatar at the start of episodes, or `None` if no level contains an avatar. If levels can
-    /// place several avatar types, returns the first one.
+    /// Returns the avatar at the start of an episode, or `None` if no level contains an avatar. If levels can
+    /// place several avatar types, returns the first type.
     pub fn start_avatar(&self) -> Option<&Avatar> {
         self.avatars.first().filter(|avatar| avatar.starts)
     }
@@ -240,14 +240,14 @@ impl Analysis {
         self.harm[stype.index()]
     }
 
-    /// Returns `true` if sprites of the type spawn sprites that harm the avatar or a goal, directly or in several
-    /// steps. Such a type kills at a distance.
+    /// Returns `true` if sprites of the type spawn, directly or in several steps, sprites that harm the avatar or
+    /// a goal. Such a type kills at a distance.
     pub fn makes_harm(&self, stype: SpriteType) -> bool {
         self.source[stype.index()]
     }
 
-    /// Returns `true` if a sprite of `obstacle` blocks a sprite of `mover`: that is, the blocked sprite, or
-    /// every sprite, moves back. Cost: O(encounters).
+    /// Returns `true` if a sprite of `obstacle` blocks a sprite of `mover`, by moving back either the blocked
+    /// sprite or every sprite. Cost: O(encounters).
     pub fn blocks(&self, obstacle: SpriteType, mover: SpriteType) -> bool {
         let undone = |encounter: &Encounter| {
             encounter.does(|effect| matches!(effect, EffectSummary::Undo(spare) if !spare.contains(&mover)))
@@ -274,7 +274,8 @@ impl Analysis {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// Returns the type and direction of the sprites that a type launches, if they move in a straight line.
+    /// Returns the type and direction of the sprites that `maker` launches, if those sprites move in a
+    /// straight line.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };
@@ -324,7 +325,7 @@ impl Analysis {
         &self.requirements
     }
 
-    /// Returns `true` if any effect is timed, whether scheduled from the start or by an interaction.
+    /// Returns `true` if any effect is timed, whether it is scheduled from the start or by an interaction.
     pub fn has_timed_effects(&self) -> bool {
         !self.game.0.timed.is_empty()
     }
@@ -344,7 +345,7 @@ impl Analysis {
         let idle = |stype: SpriteType| {
             let facts = self.facts(stype);
             !facts.possible
-                // A sprite that levels can place is not always a shot.
+                // Sprites of a type that levels can place are not always shots.
                 || self.role(stype) == Role::Shot && facts.symbols.is_empty()
                 || match facts.motion {
                     Motion::Still => facts.makes.is_empty() && !self.is_set_off(stype),
@@ -415,7 +416,7 @@ impl Analysis {
 }
 
 /// Returns, for each type, whether it creates harmful sprites, directly or in several steps. The result is a
-/// fixed point over the types that each type creates, starting from the types in `bad`.
+/// fixed point over the types that each type creates, starting from the harmful types in `bad`.
 fn sources(game: &Game, encounters: &[Encounter], facts: &[Facts], bad: &[bool]) -> Vec<bool> {
     let types = &game.0.types;
     let mut makes: Vec<BTreeSet<SpriteType>> = vec![BTreeSet::new(); facts.len()];

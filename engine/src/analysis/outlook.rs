@@ -1,4 +1,4 @@
-//! Forward-looking analysis of a game or a state: the possible futures, and whether the player sees every
+//! Forward-looking analysis of a game or a state: its possible futures, and whether the player sees every
 //! relevant sprite.
 
 use super::Analysis;

@@ -9,11 +9,12 @@ use crate::rules::effects::{OrientationRead, Provided};
 use crate::rules::{EffectInfo, Rules, SpriteType, TypeInfo};
 
 impl Analysis {
-    /// Returns, for each type, whether exchanging two of its sprites changes nothing but their identity.
+    /// Returns, for each type, whether exchanging two of its sprites makes no difference except to their
+    /// identities.
     ///
     /// Sprites of a type are interchangeable under three conditions. Each sprite's update affects only that
-    /// sprite; nothing searches for the nearest sprite of the type; and every rule that involves the type
-    /// gives the same result whatever the order in which it processes the sprites.
+    /// sprite. Nothing searches for the nearest sprite of the type. Every rule that involves the type gives
+    /// the same result regardless of the order in which it processes the sprites.
     pub(super) fn interchangeable(&self) -> Vec<bool> {
         let rules = &*self.game.0;
         let types = rules.types.len();
@@ -54,8 +55,8 @@ impl Analysis {
                 };
             }
         }
-        // If a type turns into sprites whose order matters, it creates them in its own order, so its order
-        // matters, too.
+        // If a type turns into a type whose order matters, the new sprites appear in the order of the old
+        // ones, so that order matters, too.
         loop {
             let mut changed = false;
             for encounter in &self.encounters {
@@ -146,7 +147,8 @@ fn is_special(encounter: &Encounter, rules: &Rules, stype: SpriteType) -> bool {
     encounter.does(|effect| !treats_all_alike(effect) && changes_afar(effect, info, stype))
 }
 
-/// Returns `true` if executing the effect neither changes the score nor is counted or batched.
+/// Returns `true` if the effect does not change the score, and its executions are neither counted nor
+/// batched.
 fn is_free(encounter: &Encounter, info: &EffectInfo) -> bool {
     encounter.score == 0 && info.score_change == 0 && info.counting.is_none() && !info.in_batch
 }

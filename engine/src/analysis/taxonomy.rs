@@ -26,8 +26,8 @@ const MANY: i32 = 3;
 pub struct Taxonomy {
     /// The game's pace: turn-based or real-time.
     pub time: Time,
-    /// The greatest spatial freedom that any possible avatar type gives the player, in the order of the
-    /// variants.
+    /// The greatest spatial freedom that any possible avatar type gives the player. Later variants mean more
+    /// freedom.
     pub spatiality: Spatiality,
     /// The genres, starting with the main genre. Empty if no genre fits.
     pub genres: Vec<Genre>,
@@ -66,12 +66,12 @@ base::named_enum! {
 
 base::named_enum! {
     /// A game's genre. If several genres fit, they are listed in this order. However, shooting that does not
-    /// lead to a win comes last if something other than waiting does.
+    /// lead to a win comes last if something other than waiting leads to a win.
     pub enum Genre {
         /// The avatar falls, walks and jumps.
         Platformer = "platformer",
-        /// The player and other sprites compete for the same goal: the game is won or lost depending on who
-        /// reaches it first.
+        /// The player and other sprites compete for the same goal. Whoever reaches it first decides whether
+        /// the game is won or lost.
         Race = "race",
         /// Pushing sprites to certain cells wins or opens a path. Alternatively, the game is on a grid with
         /// an avatar that can stop, winning requires more than waiting, and there are neither random effects
@@ -93,8 +93,8 @@ base::named_enum! {
         /// Touching an exit wins. The exit is a door, something dangerous to touch, or the only type that
         /// must be touched while other types merely give points.
         Escape = "escape",
-        /// The player must bring other sprites together with something: their actions achieve the win, not
-        /// the player's touch, shots or pushes.
+        /// The player must bring other sprites together with something. The actions of these sprites achieve
+        /// the win, not the player's touch, shots or pushes.
         Guide = "guide",
         /// Something other than the avatar must be protected.
         Defence = "defence",
@@ -234,9 +234,9 @@ impl Analysis {
         })
     }
 
-    /// Returns `true` if the outcome depends on who reaches something first. In such a game, a type that
-    /// moves by itself loses the game by touching the type that the avatar must touch to win. Alternatively,
-    /// the moving type's touch can cause either result.
+    /// Returns `true` if the outcome depends on who reaches something first. The game is then lost if a type
+    /// that moves by itself touches the type that the avatar must touch to win. Alternatively, the moving
+    /// type's touch can cause either result.
     fn is_race(&self) -> bool {
         let (wins, losses) = (&self.aims.create, &self.aims.prevent);
         let runs = |stype: &SpriteType| {

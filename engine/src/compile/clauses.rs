@@ -38,7 +38,7 @@ pub type Terms = Vec<(&'static str, Term)>;
 pub struct TypeClause {
     /// The type.
     pub stype: SpriteType,
-    /// The class, whether inherited or not, or `None` for grouping nodes without a class.
+    /// The class, inherited or not, or `None` for grouping nodes without a class.
     pub class: Option<SpriteClass>,
     /// The parent type in the SpriteSet.
     pub parent: Option<SpriteType>,
@@ -47,8 +47,8 @@ pub struct TypeClause {
     /// `true` if the file declares the type. `wall` and `avatar` exist even if the file does not declare
     /// them.
     pub declared: bool,
-    /// The parameters, whether inherited or not, that differ from the class's defaults. Parameters that only
-    /// affect drawing are omitted.
+    /// The parameters, inherited or not, that differ from the class's defaults. Parameters that only affect
+    /// drawing are omitted.
     pub terms: Terms,
 }
 
@@ -61,7 +61,7 @@ pub enum Party {
     Edge,
     /// The clock: the interaction is a timed effect.
     Clock,
-    /// No sprite: the clock's partner on a line without a target.
+    /// No sprite, as the clock's partner on a line without a target.
     Nobody,
 }
 
@@ -305,7 +305,7 @@ fn terminations(rules: &Rules) -> Vec<TerminationClause> {
     rules.terminations.iter().map(clause).collect()
 }
 
-/// Rereads a compiled line and records the parameters that differ from their defaults.
+/// A second reading of a compiled line, which records the parameters that differ from their defaults.
 struct Written<'a> {
     line: &'a InteractionLine,
     names: Names<'a>,

@@ -65,7 +65,8 @@ impl Header {
         header
     }
 
-    /// Returns the number of messages that the reference logs about unknown parameters: two per parameter.
+    /// Returns the number of messages that the reference logs about unknown parameters. There are two
+    /// messages per parameter.
     pub(super) fn messages(description: &Description) -> u32 {
         let mut unknown: Vec<&str> =
             description.header.params.iter().map(|param| param.key.text.as_str()).collect();

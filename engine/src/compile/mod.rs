@@ -99,7 +99,7 @@ fn compile_with(
         report_sprites_that_never_exist(description, &types, &mapping, &program, &mut problems);
     }
     if policy == Policy::Reference {
-        // The reference overlooks all other problems.
+        // The reference does not notice any other problems.
         problems.retain(|problem| ["too-large", "unsupported"].contains(&problem.code));
     }
     let problems = Diagnostics::sorted(problems);
@@ -392,7 +392,7 @@ fn mapping(
         }
         let types = line.names.iter().filter_map(|name| {
             let stype = names.resolve(name, problems)?;
-            // The reference crashes when it makes a sprite of a type without a class.
+            // The reference crashes when it creates a sprite of a type without a class.
             names.instantiable(stype, name, problems);
             Some(stype)
         });
@@ -404,7 +404,7 @@ fn mapping(
     (mapping, unusable)
 }
 
-/// Looks up sprite type names, and reports unknown names.
+/// A lookup of sprite types by name, which reports unknown names.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     types: &'a [TypeInfo],
@@ -468,7 +468,7 @@ impl<'a> Names<'a> {
         below.map(|info| info.name.as_str()).take(SUBTYPES_SHOWN).collect()
     }
 
-    /// Returns `true` if sprites of the type can be created. Reports a problem if not.
+    /// Returns `true` if sprites of the type can be created. Otherwise, reports a problem.
     fn instantiable(self, stype: SpriteType, name: &Word, problems: &mut Vec<Diagnostic>) -> bool {
         let info = &self.types[stype.index()];
         if info.class.is_none() {

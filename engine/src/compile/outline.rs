@@ -29,7 +29,7 @@ pub(crate) struct Outline {
     pub(crate) knows_avatars: bool,
 }
 
-/// Returns the outline of a description with these parsing problems, or `None` if the description has no
+/// Returns the outline of a description with the given parsing problems, or `None` if the description has no
 /// LevelMapping.
 pub(crate) fn outline(description: &Description, problems: &[Diagnostic]) -> Option<Outline> {
     if !description.has[Section::LevelMapping as usize] || description.mapping.is_empty() {

@@ -260,7 +260,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         "lastmove" => traits.last_move = int()?,
         "isFirstTick" => traits.is_first_tick = boolean()?,
         "on_ground" => traits.on_ground = boolean()?,
-        // Only text is usable: a number, a boolean or a constant is lost.
+        // Only text is used: a number, a boolean or a constant is dropped.
         "orientedImg" => traits.oriented_image = matches!(value, Value::Text(_)),
         "singleton" | "is_stochastic" | "draw_arrow" | "autotiling" => drop(boolean()?),
         "hidden" => traits.hidden = switch()?,
@@ -307,7 +307,7 @@ pub(super) fn set_trait(class: SpriteClass, traits: &mut Traits, param: &Param) 
         _ => unreachable!("every parameter of the tables is matched: {key}"),
     }
     match value {
-        // The reference would carry on with such a value.
+        // The reference accepts such a value.
         Value::Double(double) if !double.is_finite() => Err(fail(Expected::Number)),
         _ => Ok(()),
     }

@@ -1,5 +1,5 @@
-//! The sprite types that a type's parameters refer to: the types that its sprites create, follow, spend, are
-//! collected as or lead to.
+//! The sprite types that a type's parameters refer to. These are the types that its sprites create, follow,
+//! spend, are collected as, or lead to.
 
 use super::Names;
 use super::params::{Expected, Value, convert, missing_name, wrong_type};
@@ -133,7 +133,7 @@ impl Subject<'_> {
         found
     }
 
-    /// Checks the types that sprites of this type create.
+    /// Checks the types that sprites of the type create.
     fn makes(&self, key: &str, stypes: &[SpriteType], names: Names<'_>, problems: &mut Vec<Diagnostic>) {
         use SpriteClass as C;
         let dies = "the reference engine crashes on that";

@@ -7,7 +7,7 @@ use crate::rules::{SpriteType, TypeInfo};
 use crate::syntax::{Description, Param, Word};
 use std::collections::BTreeSet;
 
-/// The parameter with which the reference refers to a type by its index.
+/// The parameter that identifies a type by its index in the reference engine.
 const BY_NUMBER: &str = "itype";
 
 /// Returns, for each type, `true` if anything other than its own line, its parents' lines and the

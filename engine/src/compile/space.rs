@@ -11,8 +11,8 @@ use std::borrow::Cow;
 const KEYS: [&str; 3] = ["values", "value", "string"];
 
 /// Returns the game with the parameter values filled in. In strict mode, each parameter must specify its
-/// value with `value=`. The reference draws a missing value anew for each use, without a seed. This engine
-/// draws it with a seed derived from the game's text.
+/// value with `value=`. The reference draws a missing value at random for each use, without a seed. This
+/// engine draws the value with a seed derived from the game's text.
 pub(super) fn settled<'a>(
     description: &'a Description,
     policy: Policy,
@@ -33,7 +33,7 @@ pub(super) fn settled<'a>(
     let mut game = description.clone();
     space.sprites(&mut game.sprites);
     for line in &mut game.interactions {
-        // addTimer passes the parameters that it does not use on to the scheduled effect, as written.
+        // addTimer passes on the parameters that it does not use to the scheduled effect, as written.
         let own = |key: &str| COMMON.contains(&key) || ["timer", "repeating", "nextExecution"].contains(&key);
         let timer = line.effect.text == "addTimer";
         space.put_in(line.params.iter_mut().filter(|param| !timer || own(&param.key.text)));
@@ -183,7 +183,7 @@ impl Values {
 }
 
 /// Parses `min:step:max`: integers, decimals if any of them contains a point, or two booleans. The number of
-/// values is that of the reference: 1 for a zero step over a zero distance, and below 1 if the step does not
+/// values matches the reference: 1 for a zero step over a zero distance, and below 1 if the step does not
 /// lead towards the last value.
 fn range(text: &str) -> Option<Values> {
     let parts: Vec<&str> = text.split(':').collect();
@@ -206,8 +206,8 @@ fn range(text: &str) -> Option<Values> {
     Some(range)
 }
 
-/// Returns the number of values for a number of steps, as a 32-bit integer. The result is positive only for
-/// NaN and for numbers in range.
+/// Returns the number of values in a range with the given number of steps, as a 32-bit integer. The result is
+/// positive only for NaN and for numbers in range.
 fn count(steps: f64) -> i32 {
     (steps as i32).wrapping_add(1)
 }

@@ -148,8 +148,8 @@ fn inherit<'a>(
     }
 }
 
-/// Reports sprites without a class, once for a parent and all its subtypes. Also reports classes that an
-/// inherited class overrides.
+/// Reports sprites without a class, but only once for a parent and all its subtypes. Also reports classes
+/// that an inherited class overrides.
 fn classes(lines: &[SpriteLine], inherited: Option<(&Word, &str)>, problems: &mut Vec<Diagnostic>) {
     for line in lines {
         let name = line.name.text.as_str();
@@ -322,7 +322,7 @@ fn lacks_image(params: &[&Param]) -> Option<Span> {
         ("randomtiling", Value::Double(chance)) => chance >= 0.0,
         _ => false,
     };
-    // A value that parses as anything other than text is lost.
+    // A value that parses as anything other than text is dropped.
     let is_image = |param: &Param| {
         let names = ["img", "orientedImg"].contains(&param.key.text.as_str());
         names && matches!(convert(&param.key.text, &param.value.text), Value::Text(_))

@@ -24,7 +24,8 @@ pub(super) fn terminations(
     for line in &description.terminations {
         let mut reader = Reader { line, names, setting, problems };
         can_end = reader.flag("canEnd", can_end);
-        // A value that is neither true nor false has already been reported, and may be meant as true.
+        // A value that is neither true nor false has already been reported. It may have been intended as
+        // true.
         let loses = |param: &Param| param.value.text.to_lowercase().starts_with("false");
         winnable |= reader.param("win").is_some_and(|param| !loses(param));
         if let Some(termination) = reader.termination() {
@@ -131,7 +132,7 @@ impl<'a> Reader<'a> {
         Some(Termination { condition, win, decided_by })
     }
 
-    /// Returns how counters decide the termination, in a game with one player. The flag is `true` if that
+    /// Returns how counters decide the termination in a single-player game. The flag is `true` if that
     /// decision can win the game.
     fn by_counters(&mut self) -> Option<(bool, Decision)> {
         let (used, compared) = (self.flag("use_counter", false), self.flag("compare", false));
@@ -146,7 +147,7 @@ impl<'a> Reader<'a> {
                 None
             }
         });
-        // A single number is not a list: the reference drops it, so the list stays at 0.
+        // The reference drops a single number, which is not a list, so the list stays at 0.
         let value = limits.map_or(Ok(0), |(param, list)| {
             list.split(',').next().unwrap_or_default().parse::<i32>().map_err(|_| param)
         });

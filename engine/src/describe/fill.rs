@@ -19,7 +19,7 @@ pub(super) fn if_scored(analysis: &Analysis, sentence: &Sentence, one: &Party, t
     filler.fill(sentence.if_scored)
 }
 
-/// Returns the sentence for a timed effect, which runs on every sprite of a type or on no particular
+/// Returns the sentence for a timed effect, which runs either on every sprite of a type or on no particular
 /// sprite.
 pub(super) fn by_the_clock(analysis: &Analysis, timed: &Timed) -> String {
     let sentence = analysis.game().0.effects[usize::from(timed.effect)].effect.sentence();

@@ -32,7 +32,7 @@ pub struct Guide {
     pub winning: Vec<String>,
     /// The ways to lose, in order of priority.
     pub losing: Vec<String>,
-    /// The course of a tick: facts that apply to all interactions, as far as they matter in this game.
+    /// The course of a tick: the facts that apply to all interactions and matter in this game.
     pub order: Vec<String>,
     /// The behaviour of all sprites other than avatars, one line per type, in registry order.
     pub sprites: Vec<String>,
@@ -48,7 +48,7 @@ pub struct Guide {
     pub legend: Vec<String>,
     /// The kind of game, in the terms of its [`Taxonomy`](crate::analysis::Taxonomy). It is not printed with
     /// the other sections, because it classifies the rules instead of stating one, and players may have to
-    /// find it out.
+    /// discover it.
     pub kind: Vec<String>,
 }
 
@@ -109,8 +109,8 @@ impl fmt::Display for Guide {
     }
 }
 
-/// Returns the types whose sprites exist only while a few lines turn two types into each other, so that no player ever
-/// sees one.
+/// Returns the types that interactions use only to swap two other types. Their sprites exist only during the swap, so
+/// no player ever sees one.
 pub fn passing_types(analysis: &Analysis) -> Vec<SpriteType> {
     swap::Swap::betweens(analysis)
 }
@@ -121,7 +121,8 @@ pub fn describe(game: &Game) -> String {
 }
 
 /// Returns the sentences of [`Guide::meetings`] that describe interaction `line`, an index into
-/// [`Description::interactions`](crate::Description). Returns none if the interaction can never occur.
+/// [`Description::interactions`](crate::Description). Returns an empty list if the interaction can never
+/// occur.
 pub fn interaction(analysis: &Analysis, line: usize) -> Vec<String> {
     rules::meetings_of(analysis, line)
 }

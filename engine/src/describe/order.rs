@@ -112,7 +112,7 @@ fn pursuit(analysis: &Analysis, movers: &[SpriteType]) -> Vec<String> {
     if motions().any(|motion| matches!(motion, Motion::Fleeing(_))) {
         lines.push(Phrase::FleeStep.with(&[]));
     }
-    // Sprites that follow paths stay where they are.
+    // Without a target, sprites that follow paths stay where they are.
     let steps_at_random = |stype: &SpriteType| {
         let class = game.0.types[stype.index()].class;
         class.is_some_and(|class| class.is_a(SpriteClass::Chaser) && class != SpriteClass::PathChaser)
@@ -159,8 +159,8 @@ fn same_pair(analysis: &Analysis, one: &Encounter, other: &Encounter) -> bool {
         || (alike(one.first, other_second) && alike(second, other.first))
 }
 
-/// Returns `true` if, for some pair, a line moves a sprite back, and it matters whether another line comes
-/// before or after it.
+/// Returns `true` if, for some pair, one line moves a sprite back, and it matters whether another line comes
+/// before or after that line.
 fn blocking_matters(analysis: &Analysis) -> bool {
     let encounters = analysis.encounters();
     let blockers = encounters.iter().filter(|encounter| encounter.blocks());
@@ -183,7 +183,7 @@ fn reopens(analysis: &Analysis) -> bool {
     })
 }
 
-/// Returns `true` if some sprites that vanish on their own affect other sprites.
+/// Returns `true` if any sprites that vanish on their own affect other sprites.
 fn lingers(analysis: &Analysis) -> bool {
     let acts = |stype: SpriteType| {
         let touched =

@@ -16,7 +16,8 @@ pub(super) fn meetings(analysis: &Analysis) -> Vec<String> {
     by_line(analysis).into_iter().map(|(_, sentence)| sentence).collect()
 }
 
-/// Returns the sentences of one interaction line, in order of execution. A line of a swap has no sentence of its own.
+/// Returns the sentences of one interaction line, in order of execution. A line that belongs to a swap has no
+/// sentence of its own.
 pub(super) fn meetings_of(analysis: &Analysis, line: usize) -> Vec<String> {
     let sentences = by_line(analysis).into_iter().filter(|(own, _)| *own == Some(line));
     sentences.map(|(_, sentence)| sentence).collect()
@@ -35,7 +36,7 @@ fn by_line(analysis: &Analysis) -> Vec<(Option<usize>, String)> {
     sentences
 }
 
-/// The number of lines of a swap.
+/// The number of interaction lines in a swap.
 const SWAP: usize = 3;
 
 fn meeting(
@@ -118,7 +119,7 @@ fn stays(analysis: &Analysis, written: SpriteType) -> bool {
 }
 
 /// Returns the sentences about the changes that an execution makes to the counters, unless the effect itself
-/// decides them.
+/// decides about the changes.
 fn counters(counting: &Counting) -> String {
     let amount = |on: bool, amount: Option<i32>| if on { amount.unwrap_or(0) } else { 0 };
     let both = counting.counter.iter().zip(&counting.counter_else);

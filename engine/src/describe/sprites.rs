@@ -9,8 +9,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 use crate::rules::traits::Traits;
 
-/// Returns one line for each possible type, except avatars, whose sprites act on their own, followed by lines
-/// about the remaining types.
+/// Returns one line for each possible non-avatar type whose sprites act on their own, followed by lines about
+/// the remaining types.
 pub(super) fn sprites(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let (mut lines, mut is_all) = (Vec::new(), true);
@@ -61,7 +61,8 @@ fn walked_over(analysis: &Analysis) -> impl Iterator<Item = SpriteType> + '_ {
     })
 }
 
-/// Returns a type's behaviour, without its name. Empty for types that merely stand still.
+/// Returns the phrases about a type's behaviour, without the type's name. The list is empty for types that
+/// merely stand still.
 fn sprite(analysis: &Analysis, stype: SpriteType) -> Vec<String> {
     let info = &analysis.game().0.types[stype.index()];
     let facts = analysis.facts(stype);
@@ -244,8 +245,8 @@ fn most_health(analysis: &Analysis, traits: &Traits) -> String {
     if gained { Phrase::Most.with(&[("limit", &limit)]) } else { String::new() }
 }
 
-/// Returns the phrase about a type whose sprites vanish after this number of updates, if that happens before
-/// the time limit.
+/// Returns the phrase about a type whose sprites vanish after the given number of updates, if that happens
+/// before the time limit.
 fn vanishing(analysis: &Analysis, stype: SpriteType, updates: i64) -> Option<String> {
     let is_seen = updates <= analysis.game().time_limit().cast_signed();
     is_seen.then(|| Phrase::Vanishes.with(&[("ticks", &delay(analysis, stype, updates))]))
@@ -276,7 +277,7 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
         };
     }
     let period = if traits.cooldown == 1 { "tick".to_owned() } else { count(traits.cooldown.into(), "tick") };
-    // Producers that a level places count from their first update.
+    // Producers that a level places start counting at their first update.
     let from = if traits.cooldown < 2 {
         String::new()
     } else if analysis.facts(stype).symbols.is_empty() {
@@ -299,7 +300,7 @@ fn making(analysis: &Analysis, stype: SpriteType, class: SpriteClass, made: &str
     ])
 }
 
-/// Returns the speed of a sprite with these traits, as text.
+/// Returns, as text, the speed of a sprite with the given traits.
 fn step(analysis: &Analysis, traits: &Traits) -> String {
     if traits.continuous {
         return format!("{} pixels a tick", traits.speed);
@@ -430,7 +431,8 @@ fn keys(class: SpriteClass, avatar: &Avatar, turns_first: bool, continuous: bool
     }
 }
 
-/// Returns one line for each character that the game's levels can use, with the sprites that it places.
+/// Returns one line for each character that the game's levels can use, with the sprites that the character
+/// places.
 pub(super) fn legend(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let used = |symbol: &u8| {

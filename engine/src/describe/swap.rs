@@ -12,8 +12,8 @@ pub(super) struct Swap {
 }
 
 impl Swap {
-    /// Returns the swap formed by three consecutive parts of the interactions, if they form one. Each part
-    /// contains the encounters of one line.
+    /// Returns the swap that three consecutive parts of the interactions form, if any. Each part contains the
+    /// encounters of one line.
     pub(super) fn of(analysis: &Analysis, parts: &[(usize, Vec<&Encounter>)]) -> Option<Swap> {
         let [first, second, third] = parts else { return None };
         let pairs = |part: &(usize, Vec<&Encounter>)| {

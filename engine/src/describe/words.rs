@@ -54,8 +54,7 @@ impl Party {
     }
 }
 
-/// Returns the possible types with sprites below a type in the SpriteSet. The result is empty for a leaf
-/// type.
+/// Returns the possible types below `group` in the SpriteSet. The result is empty for a leaf type.
 pub(super) fn members(analysis: &Analysis, group: SpriteType) -> Vec<SpriteType> {
     let game = analysis.game();
     let below = |stype: SpriteType| {
@@ -101,8 +100,8 @@ pub fn plural(noun: &str) -> String {
     }
 }
 
-/// Returns `true` if a noun ends with one of these words, ignoring case: both `mouse` and `stageMouse` end
-/// with `mouse`.
+/// Returns `true` if a noun ends with one of the given words, ignoring case: both `mouse` and `stageMouse`
+/// end with `mouse`.
 fn ends_with_any(noun: &str, endings: &[&str]) -> bool {
     let small = noun.to_ascii_lowercase();
     endings.iter().any(|ending| small.ends_with(ending))
@@ -117,7 +116,7 @@ fn has_last_word(noun: &str, word: &str) -> bool {
     })
 }
 
-/// Returns `true` if a noun's singular and plural are the same, as for many animals that are fished or
+/// Returns `true` if a noun's singular and plural are identical, as with many animals that are fished or
 /// hunted.
 fn is_the_same_for_several(noun: &str) -> bool {
     ends_with_any(noun, &["fish", "sheep", "folk", "deer", "moose", "trout", "salmon", "bream"])
@@ -176,7 +175,7 @@ pub(super) fn percent(probability: f64) -> String {
     format!("{}%", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// Returns the speed of a move of `speed` cells every `cooldown` ticks, as text.
+/// Returns, as text, the speed of sprites that move by `speed` cells every `cooldown` ticks.
 pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     let cooldown = i64::from(cooldown);
     let per_cell = (1.0 / speed + 0.5) as i64;
@@ -191,8 +190,8 @@ pub(super) fn pace(speed: f64, cooldown: i32) -> String {
     if ticks == 1 { format!("{cells} a tick") } else { format!("{cells} every {ticks} ticks") }
 }
 
-/// Returns the speed of sprites that move by less than a cell every `cooldown` ticks, as text. `block` is the
-/// cell size, if the game sets one.
+/// Returns, as text, the speed of sprites that move by less than a cell every `cooldown` ticks. `block` is
+/// the cell size, if the game sets one.
 pub(super) fn glide(speed: f64, cooldown: i32, block: Option<i32>) -> String {
     let whole = |ticks: f64| (ticks - (ticks + 0.5).floor()).abs() < 1e-9;
     // Sprites move by whole pixels.

@@ -12,8 +12,8 @@ const HIDES_START: [&str; 4] = ["missing-arrow", "bad-mapping", "bad-interaction
 const OF_A_NAME: [&str; 2] = ["unknown-sprite", "parent-sprite"];
 
 /// Returns all problems in a file, sorted by position, except problems that follow from other problems.
-/// `read` contains the problems from parsing the file, and `compiled` those from compiling its rules. A
-/// problem's subject is the word quoted in its message and its help text.
+/// `read` contains the problems found while parsing the file, and `compiled` those found while compiling its
+/// rules. A problem's subject is the word quoted in its message and its help text.
 pub(crate) fn reported(read: Vec<Diagnostic>, compiled: Vec<Diagnostic>, source: &str) -> Diagnostics {
     let unread = Diagnostics::has_errors(&read);
     let all = Diagnostics::sorted(read.into_iter().chain(once_each(compiled)).collect()).0;

@@ -73,7 +73,7 @@ pub struct Diagnostic {
     pub label: String,
     /// The suggested next step, if any.
     pub help: Option<String>,
-    /// The repair that the help describes, if there is only one and its text is known.
+    /// The repair that the help describes, if there is only one possible repair and its text is known.
     #[serde(skip)]
     pub fix: Option<Box<Fix>>,
 }
@@ -121,7 +121,7 @@ impl Diagnostic {
     }
 
     /// Has the same effect as [`Diagnostic::mean`] if `found` is low enough for the problem to be shown.
-    /// Skips the lookup if not.
+    /// Otherwise, skips the lookup.
     pub(crate) fn mean_after<'a>(
         self,
         found: usize,
@@ -132,9 +132,9 @@ impl Diagnostic {
         if found < MAX_PROBLEMS { self.mean(place, wrong, candidates) } else { self }
     }
 
-    /// Suggests the VGDL equivalent if `wrong` is a word from a different dialect. If it is not, adds "did
-    /// you mean" if one of `candidates` is close to it. If `wrong` is the whole span of the problem, the
-    /// repair replaces it with the VGDL word.
+    /// Suggests the VGDL equivalent if `wrong` is a word from a different dialect. Otherwise, adds "did you
+    /// mean" if one of `candidates` is close to `wrong`. If the problem's span contains nothing but `wrong`,
+    /// the repair replaces `wrong` with the VGDL word.
     pub(crate) fn mean<'a>(
         self,
         place: Place,
@@ -155,15 +155,15 @@ impl Diagnostic {
         }
     }
 
-    /// Sets the repair that replaces `wrong` with `word`, if `wrong` is the whole span of the problem.
+    /// Sets the repair that replaces `wrong` with `word`, if the problem's span contains nothing but `wrong`.
     fn instead_of(self, wrong: &str, word: &str) -> Diagnostic {
         let span = self.span;
         let is_all = span.end.saturating_sub(span.start) == wrong.len() && !wrong.is_empty();
         if is_all { self.replace(span, word) } else { self }
     }
 
-    /// Adds "did you mean" if one of `candidates` is close to `wrong`. If `wrong` is the whole span of the problem, the
-    /// repair replaces it with the candidate.
+    /// Adds "did you mean" if one of `candidates` is close to `wrong`. If the problem's span contains nothing but
+    /// `wrong`, the repair replaces `wrong` with the candidate.
     pub fn suggest<'a>(self, wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Diagnostic {
         match nearest(wrong, candidates) {
             Some(name) => self.help(format!("did you mean `{name}`?")).instead_of(wrong, name),
@@ -201,13 +201,13 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, name)| name)
 }
 
-/// Returns the maximum number of wrong letters in a word of this length.
+/// Returns the maximum number of wrong letters in a word of the given length.
 fn near(length: usize) -> usize {
     1.max(length / 3)
 }
 
 /// Returns `true` if each word in one name is close to the word at the same position in the other name. Names
-/// that only share their ending are therefore not alike.
+/// that share only their ending are therefore not alike.
 fn alike(one: &[String], other: &[String]) -> bool {
     let close = |(one, other): (&String, &String)| {
         let distance = strsim::damerau_levenshtein(one, other);

@@ -26,7 +26,8 @@ pub struct Change {
 pub struct Conversion {
     /// The game in VGDL, in canonical form.
     pub text: String,
-    /// The text to which [`problems`](Self::problems) refer, with the same line numbers as the file.
+    /// The text that contains the spans of [`problems`](Self::problems), with the same line numbers as the
+    /// file.
     pub source: String,
     /// The levels in the file.
     pub levels: Vec<String>,
@@ -80,7 +81,7 @@ pub fn convert(file: &str) -> Conversion {
     Conversion { text: syntax::print(&description), source, levels, changes, problems }
 }
 
-/// Records the changes.
+/// The changes so far, with a function that converts spans to lines.
 struct Changes<'a> {
     line: &'a dyn Fn(Span) -> usize,
     list: &'a mut Vec<Change>,

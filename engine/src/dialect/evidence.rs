@@ -35,8 +35,8 @@ const EMPA_MAYBE: [&str; 2] = ["nothing", "changeScore"];
 const SHOWN: usize = 4;
 
 /// Returns the problems in a faulty game, starting with the one about its dialect. Python files and
-/// multiplayer games cannot be repaired line by line, so for such files, returns only the problem about the
-/// kind of file.
+/// multiplayer games cannot be repaired line by line. For such files, returns only the problem that reports
+/// the kind of file.
 pub(crate) fn told(
     source: &str,
     description: &Description,
@@ -58,7 +58,8 @@ pub(crate) fn told(
         let words: Vec<String> = words.iter().take(SHOWN).map(|word| format!("`{word}`")).collect();
         let message = format!("this game is in the dialect of {}", dialect.name());
         let problem = other_dialect(start, message, dialect);
-        // The help lists the dialect's words, so that fixing one of them does not change the message.
+        // The help, not the message, lists the dialect's words, so that the message stays the same when one
+        // of them is fixed.
         let help = format!(
             "{}; words of this dialect: {}",
             problem.help.as_deref().unwrap_or_default(),

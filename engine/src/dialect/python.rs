@@ -47,7 +47,7 @@ pub fn python_file(source: &str) -> Option<PythonFile> {
     })
 }
 
-/// Returns `true` if a text has at least two of the sections, each on a line of its own.
+/// Returns `true` if a text contains at least two section names, each on a line of its own.
 fn is_game(text: &str) -> bool {
     let is_name = |line: &&str| Section::ALL.iter().any(|section| section.name() == line.trim());
     text.lines().filter(is_name).count() > 1

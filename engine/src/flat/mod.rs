@@ -48,7 +48,7 @@ macro_rules! flat {
                     self.$buffer.clone_from(&source.$buffer);
                 })*
                 $(self.$scratch.clear();)*
-                // Updating the reference count costs time and is rarely needed.
+                // Updating a reference count takes time and is rarely needed.
                 $(if self.$shared.as_ref().map(std::sync::Arc::as_ptr)
                     != source.$shared.as_ref().map(std::sync::Arc::as_ptr)
                 {

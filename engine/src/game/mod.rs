@@ -40,7 +40,7 @@ impl Deref for Compiled {
 }
 
 impl Game {
-    /// Creates the game with these rules.
+    /// Creates a game from its rules.
     pub(crate) fn of(rules: Rules) -> Game {
         let models = Models::of(&rules);
         let plan = Plan::of(&rules, &models);
@@ -66,8 +66,8 @@ impl Game {
                 rules.warnings = causes::reported(read, rules.warnings, source).0;
                 Ok(Game::of(rules))
             }
-            // Even a description that compiles may come from a text with problems, all of which should be
-            // reported in one run.
+            // The text may have problems even if its description compiles. All problems should be reported in
+            // one run.
             compiled => {
                 let compiled = compiled.err().map_or(Vec::new(), |problems| problems.0);
                 let Diagnostics(reported) = causes::reported(read, compiled, source);
@@ -100,8 +100,8 @@ impl Game {
         compile::compile_as_reference(&description).map(Game::of)
     }
 
-    /// Returns the avatar's actions, sorted, without [`Action::Nil`]. Returns only [`Action::Nil`] if there is no
-    /// avatar.
+    /// Returns the actions available to the avatar, sorted, without [`Action::Nil`]. Returns only [`Action::Nil`]
+    /// if there is no avatar.
     pub fn actions(&self, state: &State) -> &'static [Action] {
         state.avatar_type().map_or(&[Action::Nil], |stype| self.0.types[stype.index()].actions)
     }
@@ -111,7 +111,7 @@ impl Game {
         state.avatar_type().is_some_and(|stype| self.0.types[stype.index()].keys >> action as u8 & 1 != 0)
     }
 
-    /// Returns the actions for an avatar of this type, sorted, without [`Action::Nil`].
+    /// Returns the actions available to an avatar of the given type, sorted, without [`Action::Nil`].
     pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
         self.0.types[avatar.index()].actions
     }
@@ -156,8 +156,9 @@ impl Game {
         self.0.types[stype.index()].class
     }
 
-    /// Returns the initial orientation of a type's sprites, whether it is written, inherited or set by their
-    /// class. [`Direction::NONE`] means no orientation, and [`Direction::NIL`] means a random orientation.
+    /// Returns the initial orientation of a type's sprites, whether it is set by the type's line, inherited
+    /// or set by the class. [`Direction::NONE`] means no orientation, and [`Direction::NIL`] means a random
+    /// orientation.
     pub fn orientation(&self, stype: SpriteType) -> Direction {
         self.0.types[stype.index()].traits.orientation
     }

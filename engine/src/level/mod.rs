@@ -89,7 +89,7 @@ impl Game {
         self.0.aliases.of_code(symbol).map_or(char::from(symbol), |alias| alias.character)
     }
 
-    /// Checks a level's text against this game and builds the level.
+    /// Checks a level's text against the game and builds the level.
     ///
     /// # Errors
     /// Returns all problems in the text, sorted by position: unmapped characters, no avatar or several
@@ -146,7 +146,8 @@ impl Game {
     }
 }
 
-/// The level rules of a faulty game, if its LevelMapping and its SpriteSet can be read.
+/// The LevelMapping of a faulty game, for checking the game's levels. It is available if the LevelMapping and
+/// the SpriteSet can be read.
 #[derive(Clone, Debug)]
 pub struct LevelMapping {
     game: Game,
@@ -174,7 +175,7 @@ impl LevelMapping {
         problems.retain(|problem| match problem.code {
             "undefined-character" => self.knows_characters,
             "no-avatar" | "extra-avatars" => self.knows_avatars,
-            // The substitute game's only termination is not the game's own.
+            // The only termination of `self.game` does not come from the faulty game.
             "ends-at-once" => false,
             _ => true,
         });
@@ -198,7 +199,7 @@ impl LevelReader<'_> {
         let end = cells.len() + columns;
         for (at, symbol) in line.char_indices() {
             let span = Span::new(start + at, start + at + symbol.len_utf8());
-            // The reference reads UTF-16 code units, of which some characters have two.
+            // The reference reads UTF-16 code units, and some characters consist of two.
             let units = if self.game.0.as_reference { symbol.len_utf16() } else { 1 };
             for &unit in symbol.encode_utf16(&mut [0; 2]).iter().take(units) {
                 if cells.len() == end {
@@ -251,8 +252,8 @@ impl LevelReader<'_> {
         code
     }
 
-    /// Reports rows whose length differs from the length of the first row. If all other rows are equally
-    /// long, reports only the first row.
+    /// Reports rows whose length differs from the length of the first row. If all other rows have the same
+    /// length, reports only the first row.
     fn report_ragged(&mut self, lines: &[(usize, &str)], columns: usize) {
         let length = |line: &str| line.chars().count();
         let mut others = lines[1..].iter().map(|(_, line)| length(line));
@@ -313,7 +314,8 @@ impl LevelReader<'_> {
             let Some(count) = counts.remove(&symbol) else { continue };
             let swapped: String = symbol.to_lowercase().chain(symbol.to_uppercase()).collect();
             let other_case = self.mapped.iter().copied().find(|&c| swapped.contains(c));
-            // A letter or digit was probably meant as a separate sprite, not as the ground around it.
+            // A letter or digit was probably meant as a separate sprite rather than as the surrounding
+            // ground.
             let near = around(at, columns, cells).filter(|_| count == 1 && !symbol.is_alphanumeric());
             let shown = symbol.escape_default();
             let (meant, help) = match (other_case.or(avatar), &unused[..], near) {
@@ -355,7 +357,7 @@ impl LevelReader<'_> {
             };
             let problem = Diagnostic::error("undefined-character", span, message).help(help);
             let own = places.remove(&symbol).unwrap_or_default();
-            // If there are several avatars, all but one of them are errors.
+            // If there are several avatars, each avatar except one is an error.
             let rules = &self.game.0;
             let is_avatar =
                 |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
@@ -442,7 +444,7 @@ impl LevelReader<'_> {
         )
     }
 
-    /// Returns `true` if one more problem of this kind should be reported.
+    /// Returns `true` if another problem with the given code should be reported.
     fn tells(&self, code: &str) -> bool {
         self.problems.iter().filter(|other| other.code == code).count() < MAX_REPEATS
     }

@@ -30,7 +30,7 @@ impl Game {
     }
 }
 
-/// Returns all warnings about a game's semantics, in no particular order. Cost: one call of [`Analysis::of`].
+/// Returns all warnings about a game's semantics, in no particular order. Cost: one call to [`Analysis::of`].
 fn lint(game: &Game) -> Vec<Diagnostic> {
     let linter = Linter { game, analysis: &Analysis::of(game) };
     let mut problems = Vec::new();
@@ -85,7 +85,7 @@ impl Linter<'_> {
                 let Some(avatar) = encounter.second.filter(|_| !still.is_empty()) else { return false };
                 let plays = |stype: &SpriteType| self.game.class(*stype).is_some_and(SpriteClass::is_avatar);
                 let avatars = self.tree(avatar);
-                // Any other effect on the avatar in this pair counts as intended.
+                // Any other effect on an avatar in this pair of types is assumed to be intended.
                 let meets = |other: &Encounter| {
                     let avatar = avatars.iter().any(|&stype| self.analysis.applies(other.first, stype));
                     let second =
@@ -249,7 +249,7 @@ impl Linter<'_> {
         let mut found: Vec<(&Param, bool, String)> = Vec::new();
         for (_, line) in self.game.description().sprite_lines() {
             let Some(stype) = self.game.sprite_type(&line.name.text) else { continue };
-            // If the line declares a parent, its subtypes may or may not use the parameter.
+            // If the line declares a parent type, some of the subtypes may use the parameter.
             let heirs: Vec<SpriteType> = self
                 .game
                 .sprite_types()

@@ -26,7 +26,7 @@ const MAX_LINES: usize = 128;
 /// swapped rule.
 const MAX_TRIED: usize = 1 << 13;
 
-/// Returns the single interaction for which swapping the sides makes the game winnable, but removing the
+/// Returns the only interaction for which swapping the two sides makes the game winnable, but removing the
 /// interaction does not. Returns `None` if there is no such interaction or more than one. `wins` returns
 /// whether a game can be won. Skips unusually large games. Cost: two compilations and two calls to `wins` per
 /// line.
@@ -70,9 +70,10 @@ pub fn swapped_rule(game: &Game, wins: impl Fn(&Game) -> bool) -> Option<Swapped
     Some(SwappedRule { line, span, repaired })
 }
 
-/// Returns the only rule that removes a sprite that no termination counts and that would let the player lose
-/// if its sides were swapped. The second string is the swapped rule. Returns `None` if there is no such rule
-/// or more than one. Cost: one compilation and one analysis per candidate rule.
+/// Returns the only rule that meets two conditions: it removes a sprite that no termination counts, and it
+/// would let the player lose if its two sides were swapped. The second string is the swapped rule. Returns
+/// `None` if there is no such rule or more than one. Cost: one compilation and one analysis per candidate
+/// rule.
 pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
     let description = game.description();
     let lines = &description.interactions;

@@ -14,7 +14,7 @@ use crate::rules::{Outcome, SpriteType};
 use crate::syntax::{Param, TerminationLine};
 use base::Seed;
 
-/// The number of seeds for which a level's first tick is tested, in stochastic games.
+/// The number of seeds for which a level's first tick is tested if the game is stochastic.
 const SEEDS: u64 = 4;
 
 /// Returns a warning about the termination that ends an episode of the level in its first tick.
@@ -120,7 +120,7 @@ fn limit_of(line: &TerminationLine) -> Span {
     limit.map_or(line.class.span, Param::span)
 }
 
-/// Returns `true` if a termination may lose a level in its first tick without any player changing the sprite
+/// Returns `true` if a termination may lose a level in the first tick without the player changing the sprite
 /// count, because the termination holds while some of its sprites exist.
 fn may_lose_from_start(goal: &Goal) -> bool {
     let some = matches!(goal.condition, Counted::AtMost(_, 1..) | Counted::Exactly(_, 1..));
@@ -186,7 +186,7 @@ impl Linter<'_> {
             let reported = self.game.0.warnings.iter().any(|problem| problem.code == "never-there");
             match Some(self.game).filter(|_| !reported).and_then(swapped::swapped_rule_warning) {
                 Some((problem, repaired)) => {
-                    // Rules that never fire merely because of the swapped rule get no warnings of their own.
+                    // Rules that never fire only because of the swapped rule get no warnings of their own.
                     let mut left = Vec::new();
                     let linter = Linter { game: &repaired, analysis: &Analysis::of(&repaired) };
                     linter.rules_that_never_fire(&mut left);
@@ -284,7 +284,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns the rule that would remove sprites of this type but requires more of a resource than any sprite can
+    /// Returns the rule that would remove sprites of the type but requires more of a resource than any sprite can
     /// hold, and a suggestion.
     fn unobtainable(&self, written: SpriteType) -> Option<(String, String)> {
         let lines = &self.game.description().interactions;
@@ -319,8 +319,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a rule that never fires would change sprites that count as this type. Such a rule
-    /// has its own warning.
+    /// Returns `true` if a rule that never fires would change sprites of the type or its relatives. Such a
+    /// rule has its own warning.
     fn has_rules_that_never_fire(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
@@ -330,7 +330,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a level can place sprites that count as this type, or sprites that create such
+    /// Returns `true` if a level can place sprites of the type or its relatives, or sprites that create such
     /// sprites, directly or in several steps.
     fn at_start(&self, written: SpriteType) -> bool {
         let types: Vec<SpriteType> = self.game.sprite_types().collect();

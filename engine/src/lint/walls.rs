@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::syntax::{InteractionLine, Word};
 
-/// The minimum side length at which a board's outermost cells count as a border.
+/// The minimum side length of a board whose outermost cells count as a border.
 const LEAST_SIDE: usize = 4;
 
 impl Linter<'_> {
@@ -47,8 +47,8 @@ pub(crate) fn open_border(game: &Game, level: &Level) -> Option<Diagnostic> {
 }
 
 /// Returns an avatar type that a level can place, if the type `wall` is Immovable and does not stop avatars.
-/// It stops none if no rule involves an avatar together with `wall`, or together with a type that some
-/// character places along with `wall`.
+/// `wall` stops no avatar if no rule involves an avatar together with `wall`, or together with a type that
+/// some character places along with `wall`.
 fn open_to(game: &Game, wall: SpriteType) -> Option<SpriteType> {
     let info = &game.0.types[wall.index()];
     let is_avatar = |stype: SpriteType| game.class(stype).is_some_and(SpriteClass::is_avatar);

@@ -41,7 +41,7 @@ pub(crate) enum Place {
 pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain: String =
         word.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect();
-    // A name in a non-Latin script has lost its letters.
+    // Words with letters outside ASCII have no entry in the tables.
     if plain.is_empty() || plain.len() < word.chars().filter(|c| c.is_alphanumeric()).count() {
         return None;
     }

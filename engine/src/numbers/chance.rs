@@ -16,12 +16,12 @@ pub struct Chance(pub(crate) u64);
 bytes_of_wrapper! { Chance }
 
 impl Chance {
-    /// Creates the generator for an episode with this seed (`spec/01` §7).
+    /// Creates the generator for an episode with the given seed (`spec/01` §7).
     pub fn from_seed(seed: Seed) -> Chance {
         Chance::from_java(seed.number("infinite-arcade 1 chance"))
     }
 
-    /// Creates the generator that the reference creates from a seed recorded in a trace.
+    /// Creates the same generator as the reference creates from a seed recorded in a trace.
     pub fn from_java(seed: i64) -> Chance {
         Chance((seed as u64 ^ MULTIPLIER) & MASK)
     }
@@ -37,8 +37,8 @@ impl Chance {
         (self.0 >> (48 - bits)) as i32
     }
 
-    /// Returns a uniform number in `0..bound`. Powers of two need one draw, and other bounds rarely need
-    /// more.
+    /// Returns a uniform number in `0..bound`. A bound that is a power of two needs one draw, and other
+    /// bounds rarely need more.
     pub fn below(&mut self, bound: i32) -> i32 {
         debug_assert!(bound > 0, "a choice needs at least one option");
         let mut draw = self.next(31);

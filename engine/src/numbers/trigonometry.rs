@@ -82,8 +82,8 @@ fn kernel_cos(x: f64, tail: Option<f64>) -> f64 {
     rest - (half - (z * r - x * y))
 }
 
-/// Returns the quadrant, the angle within the quadrant, and the angle's remainder, or `None` for NaN and for
-/// angles that are too large.
+/// Returns the quadrant, the angle within the quadrant, and the rounding error of that angle. Returns `None`
+/// for NaN and for angles that are too large.
 fn reduced(angle: f64) -> Option<(i32, f64, Option<f64>)> {
     const PART_1: f64 = f64::from_bits(0x3FF9_21FB_5440_0000);
     const PART_1_TAIL: f64 = f64::from_bits(0x3DD0_B461_1A62_6331);

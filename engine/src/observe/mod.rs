@@ -32,8 +32,8 @@ pub struct Observation {
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, regardless of its type's name, or `None` once the avatar is gone.
     pub avatar: Option<AvatarView>,
-    /// The visible sprites, other than avatars, that have an orientation and can move, or follow paths, in
-    /// drawing order.
+    /// The visible non-avatar sprites, in drawing order, that follow paths, or that can move and have an
+    /// orientation.
     pub movers: Vec<MoverView>,
     /// The countdowns ([`Game::countdowns`]).
     pub countdowns: Vec<CountdownView>,
@@ -54,7 +54,7 @@ pub struct CountdownView {
     pub left: Option<i32>,
 }
 
-/// The observable properties of a sprite that has an orientation and can move, or follows paths.
+/// The observable properties of a sprite that follows paths, or that can move and has an orientation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MoverView {
     /// The name of the sprite's type.
@@ -156,8 +156,8 @@ pub enum Category {
 }
 
 impl Game {
-    /// Returns the category for a type's sprites. If that category is [`Category::Static`] or
-    /// [`Category::Movable`], sprites created by an avatar have a different category.
+    /// Returns the category of a type's sprites. If that category is [`Category::Static`] or
+    /// [`Category::Movable`], sprites that an avatar creates have a different category.
     pub fn category(&self, stype: SpriteType) -> Category {
         let info = &self.0.types[stype.index()];
         match &info.traits {
@@ -175,8 +175,8 @@ impl Game {
         self.0.types[stype.index()].traits.hidden
     }
 
-    /// Returns the observation of a state. Only the first [`MAX_SEEN`] names are included, a limit that
-    /// matters only for boards full of giant sprites. Cost: O(sprites + cells).
+    /// Returns the observation of a state. Only the first [`MAX_SEEN`] names are included. This limit matters
+    /// only for boards full of giant sprites. Cost: O(sprites + cells).
     pub fn observe(&self, state: &State) -> Observation {
         let (columns, rows) = (state.world.columns() as usize, state.world.rows() as usize);
         let mut cells = vec![Vec::new(); columns * rows];
@@ -287,10 +287,10 @@ impl Game {
         records
     }
 
-    /// Returns the countdowns of sprites that create other sprites or vanish on their own, and of sprites that
-    /// cannot move in every tick, by type and then in order of creation. After these come the countdowns to
-    /// timed effects, in order of execution, for types that currently have sprites. Cost: O(sprites with
-    /// countdowns + timers).
+    /// Returns the countdowns of sprites that create other sprites, vanish on their own or cannot move in
+    /// every tick. They are sorted by type and then by creation. After these come the countdowns to timed
+    /// effects on types that currently have sprites, in order of execution. Cost: O(sprites with countdowns +
+    /// timers).
     pub fn countdowns(&self, state: &State) -> Vec<Countdown> {
         let own = self.sprite_types().filter(|&stype| !self.is_hidden(stype)).flat_map(|stype| {
             let changes = self.changes_by_itself(stype);
@@ -312,7 +312,8 @@ impl Game {
         self.class(stype).is_some_and(|own| classes.iter().any(|&class| own.is_a(class)))
     }
 
-    /// Returns `true` if sprites of the type move on their own or by keys, but not in every tick.
+    /// Returns `true` if sprites of the type move on their own or when a key is pressed, but cannot move in
+    /// every tick.
     fn rests_between_moves(&self, stype: SpriteType) -> bool {
         let info = &self.0.types[stype.index()];
         let traits = &info.traits;
@@ -349,7 +350,7 @@ impl Game {
                 (Event::Ends, Some(ticks), None)
             } else {
                 let next = state.world.tick().saturating_add(1);
-                // A producer's first update sets its start.
+                // A producer's first update sets its start tick.
                 let start =
                     if sprite.is(flag::STARTED) { state.world.overrides_of(sprite).start } else { next };
                 let gone = start.wrapping_add(next).rem_euclid(traits.cooldown.max(1));
@@ -398,8 +399,8 @@ impl Game {
         event.filter(|(stype, _)| !self.is_hidden(*stype))
     }
 
-    /// Returns the colour (red, green and blue) that the SpriteSet sets for a type or one of its parents, or
-    /// `None` if no colour is set.
+    /// Returns the colour, as red, green and blue, that the SpriteSet sets for a type or one of its parents.
+    /// Returns `None` if no colour is set.
     pub fn color(&self, stype: SpriteType) -> Option<[u8; 3]> {
         self.0.types.get(stype.index()).and_then(|info| info.traits.color)
     }
@@ -409,7 +410,7 @@ impl Game {
         self.sprite_types().filter(|&stype| state.world.group(stype).count > 0)
     }
 
-    /// Returns the types that sprites hold as resources. A type appears once per holder.
+    /// Returns the types that sprites hold as resources. A type occurs once per holder.
     pub fn held_types<'a>(&self, state: &'a State) -> impl Iterator<Item = SpriteType> + use<'a> {
         let held = state.world.held().iter().filter(|held| held.amount != 0).map(|held| held.resource);
         held.filter(|&stype| stype != SpriteType::NONE)

@@ -13,14 +13,14 @@ const MANY_CHANGES: usize = 24;
 
 /// The [`Drawn`] entry for a slot that does not appear on any plane.
 const NOWHERE: u32 = u32::MAX;
-/// The cell value for a sprite that does not cover exactly one cell or is partly off the board. Such a sprite
-/// always counts as changed.
+/// The cell value for a sprite that does not cover exactly one cell, is partly off the board, or is in
+/// flight. Such a sprite is always treated as changed.
 const SPREAD: u32 = 0xFFFF;
 
 /// The planes for a game's boards of a given size: one plane per shown sprite type, in order.
 ///
 /// A plane is a row-major array `[rows][columns]`. A cell is 1 if a sprite of the plane's type overlaps it,
-/// and 0 if not. The planes are contiguous.
+/// and 0 otherwise. The planes are contiguous.
 #[derive(Clone, Debug)]
 pub struct Planes {
     columns: usize,
@@ -28,7 +28,8 @@ pub struct Planes {
     types: Vec<SpriteType>,
     /// For each type, the index of its plane, or [`Planes::NO_PLANE`].
     plane_of: Vec<u16>,
-    /// A bit set of the planes of types whose sprites can move without being recorded in the list of changes.
+    /// A bit set of planes. A plane's bit is set if sprites of its type can move without being recorded in
+    /// the list of changes.
     unnoted: u64,
 }
 
@@ -39,7 +40,8 @@ pub struct Drawn(Vec<u32>);
 impl Planes {
     const NO_PLANE: u16 = u16::MAX;
 
-    /// Creates the planes for these types, on boards of `columns` by `rows` cells. Hidden types get no plane.
+    /// Creates the planes for the given types, on boards of `columns` by `rows` cells. Hidden types get no
+    /// plane.
     pub fn new(
         game: &Game,
         types: impl IntoIterator<Item = SpriteType>,
@@ -181,7 +183,7 @@ impl Planes {
         let span = |from: i32, size: i32, limit: i32| {
             let (first, within) = (from.div_euclid(block), from.rem_euclid(block));
             let end = within.saturating_add(size.saturating_sub(1));
-            // Most sprites are in a single cell, for which the second division can be saved.
+            // Most sprites are in a single cell, for which the second division is unnecessary.
             let last = if (0..block).contains(&end) { first } else { first + end.div_euclid(block) };
             first.clamp(0, limit) as usize..(last.clamp(-1, limit - 1) + 1) as usize
         };

@@ -3,7 +3,7 @@
 use crate::rules::Action;
 
 base::named_enum! {
-    /// A class's behaviour: the actions that its sprites take on their own.
+    /// A class's behaviour: the things that its sprites do on their own.
     pub enum ClassFamily {
         /// Sprites that do nothing on their own. They can be collected or pushed, and can lead to or carry
         /// other sprites.
@@ -48,8 +48,8 @@ macro_rules! classes {
                 match self { $(SpriteClass::$name => SpriteClass::$parent),* }
             }
 
-            /// Returns the class's family. Code that treats some classes specially decides by family for all
-            /// others, so that no class is forgotten.
+            /// Returns the class's family. Code with special cases for some classes matches all others by
+            /// family, so that no class is forgotten.
             pub fn family(self) -> ClassFamily {
                 match self { $(SpriteClass::$name => ClassFamily::$family),* }
             }

@@ -1,4 +1,4 @@
-//! The named constants that parameter values can contain (`spec/01` §1.10).
+//! The named constants in parameter values (`spec/01` §1.10).
 
 use crate::numbers::geometry::Direction;
 

@@ -33,8 +33,8 @@ pub(crate) struct TypeInfo {
     pub(crate) traits: Traits,
     /// The ancestors, starting with the root, followed by the type itself.
     pub(crate) path: Box<[SpriteType]>,
-    /// The ancestors, the type itself and its descendants, which are the types to which rules on this type
-    /// apply (`spec/01` §1.6.3).
+    /// The ancestors, the type itself and its descendants: the types to which rules on this type apply
+    /// (`spec/01` §1.6.3).
     pub(crate) tree: Box<[SpriteType]>,
     /// Each type's position in `tree`, or `NOT_IN_TREE`, indexed by type.
     pub(crate) rank: Box<[u16]>,
@@ -44,7 +44,7 @@ pub(crate) struct TypeInfo {
     pub(crate) singleton: bool,
     /// The maximum amount of the type that a sprite can hold as a resource.
     pub(crate) resource_limit: i32,
-    /// `true` for a leaf of the SpriteSet (or an undeclared `wall` or `avatar`).
+    /// `true` for a leaf of the SpriteSet, and for an undeclared `wall` or `avatar`.
     pub(crate) leaf: bool,
     /// `true` if a termination may count sprites of the type.
     pub(crate) counted: bool,
@@ -62,8 +62,8 @@ pub(crate) struct TypeInfo {
     /// `true` if sprites of the type detect the ground when rules test their overlaps.
     pub(crate) ground_aware: bool,
     /// `true` if the first sprite of the type differs from later ones, which are copies. Unlike the first
-    /// sprite, copies have the scaled size from the start, leave walls behind, and have unknown parameters
-    /// that were already reported.
+    /// sprite, copies have the scaled size from the start and leave walls behind, and their unknown
+    /// parameters have already been reported.
     pub(crate) first_differs: bool,
     /// The actions available to an avatar of this type, except [`Action::Nil`]. If there are none, the slice
     /// contains only [`Action::Nil`].
@@ -96,7 +96,7 @@ impl TypeInfo {
         self.is_like_avatar() && self.order.is_some_and(|order| order > 0)
     }
 
-    /// Returns `true` if the tree contains a type twice, as it does for a type declared below itself
+    /// Returns `true` if the tree contains a type twice, as it does if a type is declared below itself
     /// (`spec/01` §1.6.3).
     pub(crate) fn repeats(&self) -> bool {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
@@ -150,7 +150,7 @@ pub(crate) struct EffectInfo {
     /// `true` if the effect runs only once on all partners of a sprite together.
     pub(crate) in_batch: bool,
     /// `true` if the line also runs as a timed effect. The line's score and counters then apply regardless of
-    /// the effect's result at run time.
+    /// the effect's result.
     pub(crate) steady: bool,
     /// The line's index in the description.
     pub(crate) line: usize,
@@ -180,7 +180,7 @@ pub(crate) struct Counting {
 }
 
 impl EffectInfo {
-    /// Returns the entry for a standalone effect, without a score, counters or a line of its own.
+    /// Returns the entry for a standalone effect, without a score, counters or its own line.
     pub(crate) fn of(effect: Effect) -> EffectInfo {
         let summary = effect.summary();
         EffectInfo {
@@ -238,8 +238,8 @@ pub(crate) struct Pass {
     pub(crate) keyword: u16,
     /// `true` if the second tree contains a type twice, so that its sprites are visited twice.
     pub(crate) repeats: bool,
-    /// `true` if the search for hits can start from the second side, because the effect moves nothing that a
-    /// later hit depends on.
+    /// `true` if overlapping sprites can be searched for from the second side, because the effect moves
+    /// nothing that affects later overlaps.
     pub(crate) either_side: bool,
 }
 
@@ -308,8 +308,8 @@ pub(crate) struct Rules {
     pub(crate) effects: Vec<EffectInfo>,
     /// The passes at the edge of the screen, each with its type and effect, with repetitions expanded.
     pub(crate) edge: Vec<(SpriteType, u16)>,
-    /// `true` if one of the `edge` passes refers to an undeclared type, which makes the reference crash in
-    /// the first tick.
+    /// `true` if one of the `edge` passes refers to an undeclared type. The reference then crashes in the
+    /// first tick.
     pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,
@@ -320,7 +320,7 @@ pub(crate) struct Rules {
     pub(crate) terminations: Vec<Termination>,
     /// `true` if anything can draw random numbers.
     pub(crate) draws: bool,
-    /// `true` if anything reads the tick, apart from the reference's own limit.
+    /// `true` if anything except the reference's own limit reads the tick.
     pub(crate) reads_tick: bool,
     /// The first tick in which a Timeout holds.
     pub(crate) first_timeout: i32,

@@ -15,7 +15,7 @@ pub enum Outcome {
     Lost,
     /// The episode is over without a winner, because the reference logged too many messages (`spec/01` §4.9).
     Ended,
-    /// The rules did something on which the reference engine crashes, or a limit was exceeded.
+    /// The rules did something that crashes the reference engine, or a limit was exceeded.
     Stopped(Limit),
 }
 
@@ -34,7 +34,7 @@ pub enum Limit {
     /// A score changed after the avatar was removed permanently, which makes the reference throw an
     /// exception.
     NoAvatar,
-    /// A sprite with height 0 moved. The reference divides by the height.
+    /// A sprite with height 0 moved. The reference divides by the sprite's height.
     FlatSprite,
     /// A path was requested in a game without `obs=`.
     NoPaths,

@@ -9,7 +9,7 @@ pub(crate) struct Termination {
     pub(crate) condition: Condition,
     /// `true` if the termination wins the game, or may win it.
     pub(crate) win: bool,
-    /// The way in which a win or a loss is decided.
+    /// The way in which the termination decides between a win and a loss.
     pub(crate) decided_by: Decision,
 }
 
@@ -44,7 +44,7 @@ pub(crate) enum Condition {
     Timeout { limit: i32 },
 }
 
-/// Returns `true` if anything can prevent sprite-counting terminations from ending the game while they hold.
+/// Returns `true` if anything can prevent a sprite-counting termination from ending the game while it holds.
 pub(crate) fn can_be_held_up(rules: &Rules) -> bool {
     !rules.can_end
         || rules.terminations.iter().any(|end| matches!(end.condition, Condition::StopCounter { .. }))
@@ -63,7 +63,7 @@ impl Termination {
         }
     }
 
-    /// Returns the types whose trees the termination counts.
+    /// Returns the types that the termination counts. The relatives of these types are counted, too.
     pub(crate) fn counts(&self) -> &[SpriteType] {
         match &self.condition {
             Condition::SpriteCounter { stype, .. }

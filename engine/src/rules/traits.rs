@@ -35,7 +35,7 @@ base::with_defaults! {
         pub(crate) last_move: i32 = 0,
         pub(crate) is_first_tick: bool = true,
         pub(crate) on_ground: bool = false,
-        /// `true` if the sprite has images for exactly the four directions.
+        /// `true` if sprites of the type have images for exactly the four directions.
         pub(crate) oriented_image: bool = false,
         pub(crate) hidden: bool = false,
         pub(crate) invisible: bool = false,
@@ -43,7 +43,7 @@ base::with_defaults! {
         /// The `limit` parameter of Resource and Flicker.
         pub(crate) limit: i32 = 0,
         pub(crate) value: i32 = 1,
-        /// The type as which a Resource is collected.
+        /// The resource type that a sprite gains by collecting a Resource.
         pub(crate) resource: SpriteType = SpriteType::NONE,
         pub(crate) age: i32 = 0,
         pub(crate) spread_probability: f64 = 1.0,
@@ -66,7 +66,7 @@ base::with_defaults! {
         /// The speed limit, or −1 for no limit.
         pub(crate) max_speed: f64 = -1.0,
         pub(crate) jump_strength: f64 = 0.0,
-        /// The angle in radians per tick.
+        /// The angle by which the player can turn the avatar in a tick, in radians.
         pub(crate) angle_diff: f64 = 0.0,
         pub(crate) rotation: f64 = 0.0,
         /// The direction of a CarAvatar, 0 for forwards or 1 for backwards.

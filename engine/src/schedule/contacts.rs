@@ -1,10 +1,10 @@
-//! The currently possible interactions, updated as sprites appear and disappear. A tick examines only rules
+//! The currently possible interactions, updated as sprites enter and leave cells. A tick examines only rules
 //! whose two sides share a cell somewhere.
 //!
 //! Every type that takes part in a rule has a bit, and each board cell has a mask with the bits of the types
-//! in the cell (`occupancy.rs`). For each pair of bits with a rule, a counter stores the number of cells that
-//! contain both. Each pass in the event phase counts its pairs that share a cell anywhere, and is skipped if
-//! there are none.
+//! in the cell (`occupancy.rs`). For each pair of bits with a rule, a counter stores the number of cells
+//! whose mask contains both. For each pass in the event phase, another counter stores how many of its pairs
+//! share a cell. The pass is skipped if there are none.
 //!
 //! A sprite larger than a cell is in the mask of only one cell, so a pass with such a sprite on either side
 //! also counts as possible. The cells that large sprites cover are stored separately.
@@ -28,8 +28,8 @@ pub(crate) struct Contacts {
     of_type: Vec<Box<[u16]>>,
     /// The number of passes.
     passes_in_all: usize,
-    /// The passes that are always possible, because for some classes testing the ground below has an effect
-    /// in itself.
+    /// The passes that are always possible, because testing the ground below has an effect in itself for some
+    /// classes.
     always: Vec<u16>,
 }
 
@@ -95,7 +95,7 @@ impl Schedule {
         }
     }
 
-    /// Records that two bits now share a cell.
+    /// Records that sprites of two types, identified by their bits, now share a cell.
     #[inline(never)]
     fn begin_to_meet(&mut self, contacts: &Contacts, one: usize, two: usize) {
         self.meets[one] |= 1 << two;
@@ -105,7 +105,7 @@ impl Schedule {
         }
     }
 
-    /// Records that two bits no longer share any cell.
+    /// Records that sprites of two types, identified by their bits, no longer share any cell.
     #[inline(never)]
     fn cease_to_meet(&mut self, contacts: &Contacts, one: usize, two: usize) {
         self.meets[one] &= !(1 << two);
@@ -115,8 +115,8 @@ impl Schedule {
         }
     }
 
-    /// Returns `true` if a sprite with the bit `own` may share a cell with a sprite that has any of the bits
-    /// `others`.
+    /// Returns `true` if a sprite with the type bit `own` may share a cell with a sprite that has any of the
+    /// type bits `others`.
     #[inline]
     pub(crate) fn may_meet(&self, world: &World, own: u64, others: u64) -> bool {
         self.meets[own.trailing_zeros() as usize] & others != 0 || world.is_big(own | others)

@@ -31,14 +31,14 @@ pub(crate) struct Flight {
 
 bytes_of_fields! { Flight { slot due } }
 
-/// The maximum distance in pixels from the board at takeoff, and the maximum distance of a single move.
-/// Neither distance can cause coordinates to overflow.
+/// The maximum distance from the board at takeoff, and the maximum length of a single move, in pixels. With
+/// these limits, coordinates cannot overflow.
 const FARTHEST: i32 = 1 << 16;
 const FASTEST: i32 = 1 << 15;
 /// The maximum number of ticks between the moves of a sprite in flight.
 pub(crate) const LONGEST_PERIOD: i32 = 1000;
 
-/// Returns the tick in which the sprite moves after `moves` further moves.
+/// Returns the tick in which a sprite moves again after `moves` further moves.
 fn due(sprite: &Sprite, moves: i32) -> i32 {
     let ticks = i32::from(sprite.period).saturating_mul(moves.saturating_add(1));
     sprite.moved_at.saturating_add(ticks)
@@ -63,8 +63,8 @@ impl Step<'_, Foresight<'_>> {
         self.world.enter_anew(self.models, slot, rect, &mut self.scheduler);
     }
 
-    /// Records due sprites in flight in their new cells, before the updates of a tick. This is slightly early
-    /// for sprites whose update comes later, but nothing reads the cells before the event phase.
+    /// Records each due sprite in flight in its new cells, before the updates of a tick. For some sprites,
+    /// this is slightly earlier than their own update, but nothing reads the cells before the event phase.
     #[inline]
     pub(crate) fn fly(&mut self) {
         if self.world.tick() >= self.scheduler.schedule.next_due {
@@ -87,7 +87,7 @@ impl Step<'_, Foresight<'_>> {
     }
 
     /// Records a sprite in flight in the cells that it will cover after this tick's update. Returns the tick
-    /// in which its cells change next.
+    /// in which the sprite's cells change next.
     fn hop(&mut self, slot: Slot) -> i32 {
         self.touch(slot);
         let (rect, by) = self.world.fly_on(slot);
@@ -157,8 +157,8 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.next_due = i32::MAX;
     }
 
-    /// Starts a sprite's flight after a tick in which it has merely moved by itself. Returns `false` if the
-    /// sprite cannot fly.
+    /// Starts a sprite's flight after a tick in which the sprite has merely moved by itself. Returns `false`
+    /// if the sprite cannot fly.
     pub(super) fn take_off(&mut self, slot: Slot) -> bool {
         let sprite = *self.world.sprite(slot);
         let (dx, dy) = (

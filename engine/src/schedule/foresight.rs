@@ -31,7 +31,7 @@ pub(crate) struct Foresight<'a> {
     pub(super) sleeps: bool,
     /// `true` if sprites may fly in this step.
     pub(super) flies: bool,
-    /// `true` if a sprite that may sleep or fly has moved by itself.
+    /// `true` if any sprite that may sleep or fly has moved by itself.
     pub(super) any_moved: bool,
 }
 

@@ -28,9 +28,9 @@ flat! {
             next_due: i32,
         }
         buffers {
-            /// For each pair of bits, the number of cells that contain both.
+            /// For each pair of type bits (`contacts.rs`), the number of cells whose mask contains both.
             together: u16,
-            /// For each bit, the bits that share a cell with it anywhere.
+            /// For each type bit, the type bits that share a cell with it anywhere.
             meets: u64,
             /// For each pass, the number of reasons to examine the pass.
             reasons: u16,
@@ -63,7 +63,7 @@ flat! {
 pub(crate) struct Plan {
     /// The types whose updates have an effect, in update order.
     movers: Vec<Mover>,
-    /// The tables of possible passes, by the types that share cells.
+    /// The tables from which the possible passes are derived, given the types that share cells.
     pub(crate) contacts: Contacts,
     /// Each type's shortcuts.
     pub(crate) shortcuts: Vec<Shortcuts>,

@@ -8,8 +8,8 @@ use crate::world::{Hit, Hits, NONE};
 use smallvec::SmallVec;
 
 impl Step<'_, Foresight<'_>> {
-    /// Returns `true` if the second side of a pass has fewer sprites and a search from that side finds the
-    /// same hits.
+    /// Returns `true` if the second side of a pass has fewer sprites, and a search from that side finds the
+    /// same pairs of sprites.
     #[inline(always)]
     pub(super) fn is_second_side_smaller(&self, pass: &Pass) -> bool {
         let size = |side: SpriteType| {
@@ -23,8 +23,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Processes the same hits as [`Step::visit_first_side`] in the same order, but searches from the second
-    /// side.
+    /// Processes the same pairs of sprites as [`Step::visit_first_side`] in the same order, but searches from
+    /// the second side.
     pub(super) fn visit_second_side(&mut self, pass: &Pass, newborn: u32, watch: &mut (impl Watch + ?Sized)) {
         let (first, second) = (self.side(pass.first), self.side(pass.second));
         let mut pairs: SmallVec<[(Hit, Hit); 16]> = SmallVec::new();

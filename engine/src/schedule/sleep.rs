@@ -4,13 +4,13 @@
 //! long as nothing enters or leaves the cells of the boulder and the cells below, each tick repeats the last
 //! tick and changes nothing. Such a sprite is skipped.
 //!
-//! As soon as anything touches these cells, it wakes. If its turn to move in this tick has already passed,
-//! but the rule that moves it back has not run yet, the movement is performed late.
+//! As soon as anything changes in these cells, the sprite wakes. If its turn to move in this tick has already
+//! passed, but the rule that moves it back has not run yet, the movement is performed late.
 //!
 //! Sprites may sleep only if that does not change the result (`spec/01` §4, `spec/03` §4). The conditions
 //! are:
 //!
-//! - The sprite's movement draws no random numbers, counts nothing and does not wait.
+//! - The sprite tries to move in every tick, and its movement draws no random numbers and counts nothing.
 //! - The rule that moves the sprite back has no score.
 //! - Nothing else happens to the sprite in the tick.
 //! - No rule pairs the sprite with anything that it stands on.
@@ -31,18 +31,18 @@ use crate::world::{Slot, Sprite, World, flag};
 
 /// Values of [`Sprite::activity`], which record the sprite's activity in this tick.
 pub(crate) mod mark {
-    /// The sprite has not moved on its own, or not in the way that sleeping sprites do.
+    /// The sprite has not moved on its own, or has not moved in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
     /// The sprite has moved on its own, and nothing else has happened.
     pub(crate) const MOVED: u16 = 0x7FFF;
     /// Something else has happened as well.
     pub(crate) const DISTURBED: u16 = 0x7FFE;
-    /// A bit set for sprites that are not updated. Without this bit, any other value is one more than the
-    /// index of the pass that moved the sprite back.
+    /// The bit that marks sprites that are not updated. Without this bit, any other value is one more than
+    /// the index of the pass that moved the sprite back.
     pub(crate) const SKIPPED: u16 = 0x8000;
 }
 
-/// The maximum size of a sprite in a game with sleeping sprites, in cells along one side.
+/// The maximum side length in cells of any sprite in a game with sleeping sprites.
 const LARGEST: f64 = 4.0;
 
 /// The cells around a sleeping sprite, and the pass that would move it back.
@@ -122,7 +122,8 @@ pub(crate) fn shortcuts(types: &[TypeInfo], passes: &[Pass], effects: &[EffectIn
             // Types that never move on their own need no shortcut.
             && !is_idle
             && !traits.continuous
-            // Sprites that wait, and enter a new cell with every move, are cheaper to update than to fly.
+            // Sprites that have a cooldown and enter a new cell with every move are cheaper to update than to
+            // fly.
             && (traits.cooldown <= 1 || traits.cooldown <= LONGEST_PERIOD && traits.speed.abs() < 1.0)
             && traits.last_move == 0
             && traits.time_to_live < 0
@@ -184,7 +185,8 @@ impl Step<'_, Foresight<'_>> {
         self.scheduler.schedule.stamp(self.world, &sprite, self.world.tick());
     }
 
-    /// Relocates a sprite like [`Step::relocate`], in a game in which sprites sleep.
+    /// Relocates a sprite like [`Step::relocate`], and wakes the sleeping sprites that watch the affected
+    /// cells.
     pub(super) fn relocate_noisily(&mut self, slot: Slot, rect: Rect) {
         let before = *self.world.sprite(slot);
         self.touch(slot);
@@ -357,8 +359,8 @@ impl Step<'_, Foresight<'_>> {
         }
     }
 
-    /// Wakes one sprite. If its turn to move in this tick has passed, but the rule that moves it back has not
-    /// run yet, performs the movement late.
+    /// Wakes one sprite. If the sprite's turn to move in this tick has passed, but the rule that moves it
+    /// back has not run yet, performs the movement late.
     fn wake_one(&mut self, sleeper: Sleeper) {
         let slot = sleeper.slot;
         for cell in sleeper.cells(self.world) {

@@ -53,7 +53,7 @@ enum UpdateKind {
     Other,
 }
 
-/// Returns the kind of a type's updates.
+/// Returns the way in which a type's updates start.
 fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     use ClassFamily as Family;
     use SpriteClass as C;
@@ -87,16 +87,16 @@ pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     rules.order.iter().rev().filter_map(mover).collect()
 }
 
-/// Returns the bound for a producer's draws, as a number of [`DRAW`] bits. Draws below this bound are below
-/// the producer's probability.
+/// Returns the bound for a producer's draws, as an integer with [`DRAW`] bits. A draw below this bound is
+/// below the producer's probability.
 fn threshold(prob: f64) -> i32 {
     // Scaling by a power of two is exact. No draw is at or above NaN.
     let scaled = (prob * f64::from(1 << DRAW)).ceil();
     if scaled.is_nan() { i32::MAX } else { scaled as i32 }
 }
 
-/// Skips SpawnPoints and Bombers, from `slot` on, that merely make a draw in this tick. This is the most
-/// frequent case. Returns the first sprite that does more.
+/// Starting at `slot`, skips the SpawnPoints and Bombers that merely make a draw in this tick, which is the
+/// most frequent case. Returns the first sprite that does more.
 fn pass_over(world: &mut World, traits: &Traits, threshold: i32, mut slot: Slot) -> Slot {
     let mut chance = world.chance();
     while slot != NONE {
@@ -158,7 +158,7 @@ pub(super) fn update_all(step: &mut Step<'_, Foresight<'_>>) {
     }
 }
 
-/// Returns `true` if a sprite's update in this tick has no work left.
+/// Returns `true` if nothing is left to do for a sprite's update in this tick.
 #[inline(always)]
 fn is_done(step: &mut Step<'_, Foresight<'_>>, slot: Slot, mover: &Mover, traits: &Traits) -> bool {
     let sprite = step.world.own(slot);

@@ -1,4 +1,4 @@
-//! Constructs states without playing.
+//! Constructs states without playing up to them.
 
 use crate::game::Game;
 use crate::level::Level;

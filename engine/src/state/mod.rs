@@ -61,15 +61,15 @@ impl State {
         self.world.chance()
     }
 
-    /// Returns a copy of the state with a different random future. Planners use such copies because they must
-    /// not foresee random events.
+    /// Returns a copy of the state with a different random future. Planners use such copies so that they
+    /// cannot foresee random events.
     pub fn fork(&self, seed: base::Seed) -> State {
         let mut state = self.clone();
         state.world.reseed(Chance::from_seed(seed), Chance::from_seed(seed.child("jumps", 0)));
         state
     }
 
-    /// Overwrites this state with `source` and a different random future, reusing the buffers.
+    /// Overwrites this state with a copy of `source` that has a different random future, reusing the buffers.
     pub fn fork_from(&mut self, source: &State, chance: Chance) {
         self.clone_from(source);
         self.world.reseed(chance, chance);

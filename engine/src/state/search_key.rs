@@ -18,7 +18,7 @@ const TAG: u64 = 0x4B65_7900;
 trait Absorb {
     fn pair(&mut self, a: u64, b: u64);
 
-    /// Absorbs the words for each slot in such a way that the order of the slots makes no difference.
+    /// Absorbs the words for each slot, such that the order of the slots makes no difference.
     fn in_any_order(&mut self, slots: impl Iterator<Item = Slot>, words: impl Fn(Slot, &mut Self));
 }
 
@@ -67,10 +67,10 @@ impl State {
     /// - score changes by removeScore, which removes the whole score
     ///
     /// The key omits the score, the counters and the tick, unless a termination reads their values. Spawners
-    /// read only the tick's remainder. The key also omits the random number generator, unless random draws
-    /// are possible, and memory that is never read again.
+    /// depend only on the tick modulo their cooldown. The key also omits the random number generator, unless
+    /// random draws are possible, and memory that is never read again.
     ///
-    /// Ages count up to the cooldown, timers are relative to the tick, and sprites are identified by their
+    /// Ages are capped at the cooldown, timers are relative to the tick, and sprites are identified by their
     /// order instead of their IDs. Cost: O(sprites).
     pub fn search_key(&self, game: &Game) -> SearchKey {
         let mut mixer = Mixer::new(TAG);
@@ -154,7 +154,7 @@ impl World {
         let info = &rules.types[sprite.stype.index()];
         let (overrides, extra) = (self.overrides_of(sprite), self.extra_of(sprite));
         let held = self.held_by(slot).iter().filter(|held| held.amount != 0);
-        // This word gives the number of words that follow for this sprite.
+        // This word determines the number of words that follow for the sprite.
         let follows = (held.clone().count() as i32) << 1 | i32::from(extra.is_some());
         to.pair(two((sprite.flags & LIVE) as i32, follows), two(overrides.health, overrides.max_health));
         to.pair(two(sprite.rect.x, sprite.rect.y), two(sprite.rect.w, sprite.rect.h));
@@ -184,7 +184,8 @@ impl World {
         }
     }
 
-    /// Returns the age as read by the next update or event. All ages beyond the cooldown are equivalent.
+    /// Returns a sprite's age as read by the next update or event. All ages beyond the cooldown are
+    /// equivalent.
     fn live_age(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         let age = if sprite.is(flag::FROZEN) {
             sprite.moved_at

@@ -123,7 +123,7 @@ pub struct TerminationLine {
 /// A parameter line of a `GameSpace`, `NAME > values=min:step:max value=x`.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct ParameterLine {
-    /// The parameter's name, which other lines use as a value.
+    /// The parameter's name, which other lines contain as a value.
     pub name: Word,
     /// The parameters `values`, `value` and `string`.
     pub params: Vec<Param>,
@@ -186,7 +186,7 @@ impl Description {
     }
 }
 
-/// Pairs names with `t1`, `t2` and so on, in a random order drawn from `sampler`.
+/// Maps names to `t1`, `t2` and so on, in a random order drawn from `sampler`.
 pub fn meaningless_names(names: &[&str], sampler: &mut Sampler) -> BTreeMap<String, String> {
     let mut numbers: Vec<usize> = (1..=names.len()).collect();
     sampler.shuffle(&mut numbers);

@@ -38,7 +38,7 @@ fn hexadecimal(text: &str) -> f64 {
     exponent = i32::clamp(exponent, -5000, 5000);
     let (mut mantissa, mut places) = (0u64, 0i64);
     for (at, digit) in digits.chars().filter_map(|digit| digit.to_digit(16)).enumerate() {
-        // Digits beyond the precision of a double only matter if one of them is not 0.
+        // Digits beyond the precision of a double matter only if one of them is not 0.
         if mantissa < 1 << 59 {
             mantissa = mantissa << 4 | u64::from(digit);
             places += i64::from(at >= point);

@@ -1,5 +1,5 @@
 //! Reads a game file in reference mode (`spec/01` §1.1–§1.9). The indentation turns the lines into a tree,
-//! faulty lines are dropped with one message per line, and only each section's direct children count.
+//! faulty lines are dropped with one message per line, and only the direct children of each section are read.
 
 use super::description::{
     Description, Header, InteractionLine, MappingLine, Param, ParameterLine, Section, SpriteLine,
@@ -40,8 +40,8 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// The line's grammar, as determined by the last section name before it, wherever that name is in the
-    /// tree.
+    /// The line's grammar, as determined by the last section name before the line, wherever that name is in
+    /// the tree.
     grammar: Option<Section>,
     /// The section whose name is on the line, ignoring case.
     heading: Option<Section>,
@@ -54,7 +54,7 @@ impl Node<'_> {
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
-            // A one-word line is accepted here, and ends the reading later.
+            // A one-word line is accepted here, but stops the reader later.
             Some(Section::InteractionSet) if self.tokens.len() == 1 => return true,
             Some(Section::InteractionSet) => match self.arrow() {
                 Some(at) => &self.tokens[at + 1..],
@@ -175,7 +175,7 @@ impl<'a> Tree<'a> {
         }
         self.description.order.push((section, own));
         if foreign.is_some() {
-            // A line of another section ends the reading, just like an interaction without an effect.
+            // A line from another section stops the reader, just like an interaction without an effect.
             self.description.interactions.push(InteractionLine::default());
             self.description.order.push((Section::InteractionSet, 1));
         }
@@ -320,7 +320,7 @@ mod tests {
         let game = sound("BasicGame\n SpriteSet\n  a >\n   b\n   c >\n  d >\n");
         assert_eq!((names(&game.sprites), game.sprites[0].children.len()), (vec!["a", "d"], 0));
         // Siblings with a different indent cause a message. More deeply indented lines of other sections are
-        // lost, including their names.
+        // dropped, including their names.
         let set = "  InteractionSet\n     a b > killSprite\n    a b > killBoth\n     a b > stepBack\n";
         let game = sound(&format!("{SMALL}{set}"));
         assert_eq!((game.messages, game.interactions.len()), (1, 2));

@@ -1,4 +1,4 @@
-//! Avatars: the sprite that the player controls, and its reactions to actions (`spec/02` §9).
+//! The avatar: the sprite that the player controls, and its reactions to actions (`spec/02` §9).
 
 use super::sprites::walkers::jump;
 use crate::numbers::geometry::Direction;
@@ -94,7 +94,7 @@ fn moving(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) -> Mo
     }
 }
 
-/// Moves the avatar, and turns it in the direction of the move.
+/// Moves the avatar, and turns it to face the direction of the move.
 #[inline(always)]
 fn oriented(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) -> Movement {
     let movement = moving(step, slot, action);
@@ -127,14 +127,14 @@ fn flak(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
         step.add(traits.stypes.first().copied().unwrap_or(SpriteType::NONE), sprite.rect.x, sprite.rect.y)
     {
         if let Some(ammo) = ammo {
-            // The reference does not clamp the difference, so ammunition may drop below 0.
+            // The reference does not limit the remaining ammunition, so it may drop below 0.
             step.world.overdraw(slot, ammo, traits.ammo_cost);
         }
         step.world.edit(shot).set(flag::FROM_AVATAR, true);
     }
 }
 
-/// Shoots: creates the first type of shot for which there is ammunition, one body length ahead.
+/// Shoots the first type of shot for which the avatar has ammunition. The shot appears one body length ahead.
 fn shoot(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     let facing = step.world.overrides(slot).orientation.normalised();
     shoot_towards(step, slot, facing);
@@ -173,7 +173,7 @@ fn shoot_kind(step: &mut Step<'_, impl Scheduler>, slot: Slot, kind: usize, faci
     }
 }
 
-/// Shoots a different type of shot with each key, always in the same direction.
+/// Shoots a different type of shot for each key, always in the same direction.
 fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     glide(step, slot);
     let kind = match action {
@@ -191,7 +191,7 @@ fn shoot_only(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     }
 }
 
-/// Turns the avatar only at right angles, and leaves sprites behind.
+/// Turns the avatar, but only by right angles, and leaves sprites behind.
 fn ongoing_turning(step: &mut Step<'_, impl Scheduler>, slot: Slot, direction: Direction) {
     let facing = step.world.overrides(slot).orientation;
     if direction != Direction::NONE && direction.x * facing.x + direction.y * facing.y == 0.0 {
@@ -239,7 +239,7 @@ fn thrust(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     };
 }
 
-/// Changes the rotation with the left and right keys.
+/// Changes the avatar's rotation if the left or right key is pressed.
 fn steer(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Action) {
     let diff = step.rules.types[step.world.own(slot).stype.index()].traits.angle_diff;
     let extra = step.world.extra(step.rules, slot);

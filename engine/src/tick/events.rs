@@ -44,8 +44,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
     fn timers(&mut self, watch: &mut (impl Watch + ?Sized)) {
         while let Some(Timer { timed: number, .. }) = self.world.take_due() {
             S::unsettles(self);
-            // Count the work even if there is no sprite. If it were not counted, a timer that repeats at once
-            // would run forever.
+            // Count the work even if there is no sprite. Otherwise, a timer that repeats at once would run
+            // forever.
             self.work_of_effect();
             let timed = &self.rules.timed[usize::from(number)];
             match timed.target {
@@ -68,7 +68,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Calls [`World::plan`](crate::world::World::plan), and counts the work of moving timers in memory.
+    /// Schedules a timer with [`World::plan`](crate::world::World::plan), and counts the work of moving other
+    /// timers in memory.
     pub(crate) fn plan(&mut self, timer: Timer) {
         self.work(self.world.timers().len() / 64);
         self.world.plan(timer);
@@ -109,7 +110,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Adds the result of an execution to the score and the counters. `remembered` determines which parts apply.
+    /// Updates the score and the counters after an execution. `remembered` determines which of these changes
+    /// apply.
     fn credit(&mut self, info: &EffectInfo, remembered: u8, times: i32) {
         self.score(info, remembered, times);
         if let Some(counting) = &info.counting {
@@ -146,8 +148,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Visits every sprite in the tree that is not completely on the screen. An effect that adds to the group
-    /// being visited ends the visit with a message.
+    /// Visits every sprite in the tree that is not completely on the screen. An effect that adds a sprite to
+    /// the group being visited ends the visit with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
@@ -257,7 +259,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.work(visited);
     }
 
-    /// Processes a hit, after checking again that the first sprite is not dead and still overlaps the second.
+    /// Processes an overlap of two sprites, after checking again that the first sprite is not dead and still
+    /// overlaps the second.
     pub(crate) fn meet(&mut self, pass: &Pass, one: Slot, two: Slot, watch: &mut (impl Watch + ?Sized)) {
         if self.rules.types[self.world.own(one).stype.index()].ground_aware {
             self.notice_ground(one, two);
@@ -269,7 +272,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Executes an effect on one or two sprites, and reports the removed sprites if `watch` wants removals.
+    /// Executes an effect on one or two sprites, and reports the removed sprites if `watch` asks for
+    /// removals.
     #[inline(always)]
     fn execute(&mut self, effect: u16, one: Slot, two: Option<Slot>, watch: &mut (impl Watch + ?Sized)) {
         if !watch.wants_removals() {
@@ -293,7 +297,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.credit(info, if info.steady { info.initial_memory() } else { remembered }, 1);
     }
 
-    /// Reports the sprites of an execution that is about to happen.
+    /// Reports the sprites that are about to take part in a rule's execution.
     #[cold]
     fn tell(&self, watch: &mut (impl Watch + ?Sized), line: usize, one: Slot, two: Option<Slot>) {
         let first = self.world.present(one);
@@ -311,7 +315,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         std::iter::once(first).chain(seconds).filter(|(slot, _)| !self.is_gone(*slot)).collect()
     }
 
-    /// Reports which of these sprites are no longer alive.
+    /// Reports the sprites that were alive before the execution and no longer are.
     #[cold]
     fn tell_removals(
         &self,
@@ -329,7 +333,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 
     /// Executes an effect like [`Step::execute`], but on all partners together. The effect determines how
-    /// many times the score counts.
+    /// many times the score is added.
     #[inline(always)]
     fn execute_batch(
         &mut self,
@@ -397,5 +401,5 @@ impl<'a, S: Scheduler> Step<'a, S> {
     }
 }
 
-/// The maximum distance in pixels below a sprite at which solid ground counts.
+/// The maximum distance in pixels below a sprite at which solid ground is detected.
 const GROUND: i32 = 3;

@@ -42,14 +42,14 @@ pub struct Removal {
     pub by: Option<SpriteType>,
 }
 
-/// A step observer, which is notified of the executed interactions and their sprites.
+/// An observer of a step, which is notified of executed interactions and the sprites involved.
 pub trait Watch {
     /// Called after interaction `line` (an index into [`Description::interactions`](crate::Description)) has
     /// been executed. An interaction that moves the same sprite back to the same position in every tick is
     /// reported only once.
     fn interaction(&mut self, line: usize);
 
-    /// Returns `true` if the observer wants calls to [`Watch::meeting`].
+    /// Returns `true` if [`Watch::meeting`] should be called.
     fn wants_meetings(&self) -> bool {
         false
     }
@@ -58,13 +58,13 @@ pub trait Watch {
     /// on no sprite.
     fn meeting(&mut self, _meeting: Meeting) {}
 
-    /// Returns `true` if the observer wants calls to [`Watch::removal`].
+    /// Returns `true` if [`Watch::removal`] should be called.
     fn wants_removals(&self) -> bool {
         false
     }
 
-    /// Called after an execution for each participating sprite that was removed or left disabled. Dead
-    /// avatars are left disabled.
+    /// Called after an execution for each participating sprite that was removed or disabled. Dead avatars are
+    /// disabled.
     fn removal(&mut self, _removal: Removal) {}
 
     /// Called at the end of the step with the amount of work. See [`MAX_WORK`].
@@ -82,10 +82,10 @@ pub(crate) struct Step<'a, S> {
     pub(crate) models: &'a Models,
     pub(crate) world: &'a mut World,
     pub(crate) scheduler: S,
-    /// The update-order position that is being updated. Types with a lower position have not been updated yet
-    /// in this tick.
+    /// The update-order position of the type being updated. Types with a lower position have not been updated
+    /// yet in this tick.
     pub(crate) updating: i32,
-    /// The reason for stopping the step, or `None` if it was not stopped.
+    /// The reason why the step was stopped, or `None` if it was not stopped.
     pub(crate) stopped: Option<Limit>,
     /// The amount of work so far. See [`MAX_WORK`].
     pub(crate) work: usize,
@@ -142,7 +142,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
             }
         }
         if self.world.tick() >= MAX_TICKS && self.world.outcome() != Outcome::Won {
-            // The avatar loses. If there is none, the reference crashes.
+            // The avatar loses. Without an avatar, the reference crashes.
             let gone = self.world.avatar() == NONE;
             self.world.end(if gone { Outcome::Stopped(Limit::NoAvatar) } else { Outcome::Lost });
         }
@@ -184,7 +184,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         }
     }
 
-    /// Starts the updates of a type's sprites. Returns `false` if the type has no sprites or too many.
+    /// Starts the updates of a type's sprites. Returns `false` if the type has no sprites or too many
+    /// sprites.
     #[inline(always)]
     pub(crate) fn start_type(&mut self, order: i32, stype: SpriteType) -> bool {
         let count = self.world.group(stype).count;

@@ -73,13 +73,13 @@ impl<S: Scheduler> Step<'_, S> {
         true
     }
 
-    /// Returns `true` if a sprite's cooldown prevents a move.
+    /// Returns `true` if a sprite's cooldown prevents it from moving.
     #[inline(always)]
     fn is_held_up(&self, slot: Slot) -> bool {
         self.rules.types[self.world.own(slot).stype.index()].traits.cooldown > self.age(slot)
     }
 
-    /// Moves a sprite to any position, as part of its own movement.
+    /// Moves a sprite to a position as part of its own movement.
     #[inline(never)]
     fn go(&mut self, slot: Slot, aim: Rect) {
         let sprite = self.world.own(slot);
@@ -89,7 +89,7 @@ impl<S: Scheduler> Step<'_, S> {
             self.set_age(slot, 0);
             return;
         }
-        // The common case, without separate calls.
+        // The common case, with the calls inlined.
         self.world.start_move(slot);
         S::relocates(self, slot, aim);
     }

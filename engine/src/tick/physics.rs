@@ -13,8 +13,8 @@ pub(crate) enum Movement {
     Move,
 }
 
-/// Returns the grid cell size in pixels used by the sprite's physics. For continuous physics, this is a
-/// constant.
+/// Returns the grid cell size, in pixels, that the sprite's physics uses. For continuous physics, the size is
+/// a constant.
 pub(crate) fn grid_size(step: &Step<'_, impl Scheduler>, slot: Slot) -> f64 {
     if is_continuous(step.rules, step, slot) { 10.0 } else { f64::from(step.world.block()) }
 }
@@ -74,8 +74,8 @@ pub(crate) fn aim(step: &Step<'_, impl Scheduler>, slot: Slot) -> Option<Rect> {
     step.shifted(slot, orientation, (speed * block) as i32).filter(|&aim| aim != sprite.rect)
 }
 
-/// Moves a sprite in the direction that it or its player has chosen. A speed of 0 stands for the sprite's own
-/// speed.
+/// Moves a sprite in the direction that the sprite or the player has chosen. A speed of 0 stands for the
+/// sprite's own speed.
 #[inline]
 pub(crate) fn active(
     step: &mut Step<'_, impl Scheduler>,
@@ -122,8 +122,8 @@ pub(crate) fn active_along(
     if step.displace_along(slot, base, pixels) { Movement::Move } else { Movement::Still }
 }
 
-/// Applies a force in continuous physics. The force changes orientation and speed, and the next passive
-/// movement moves the sprite.
+/// Applies a force in continuous physics. The force changes the orientation and the speed, but only the next
+/// passive movement moves the sprite.
 fn accelerate(step: &mut Step<'_, impl Scheduler>, slot: Slot, force: Direction, speed: f64) -> Movement {
     let &Overrides { orientation, speed: own, .. } = step.world.overrides(slot);
     let traits = &step.rules.types[step.world.own(slot).stype.index()].traits;

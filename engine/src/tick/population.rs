@@ -1,4 +1,4 @@
-//! Operations that create, kill and release sprites.
+//! Operations that create, kill and remove sprites.
 
 use crate::limits::MAX_SPRITES;
 use crate::numbers::geometry::Rect;
@@ -13,8 +13,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Creates a sprite, unless a singleton of its line exists or the number of sprites is at its limit
-    /// (`spec/01` §3.5).
+    /// Creates a sprite, unless the type or an ancestor is a singleton that already has a sprite, or the
+    /// number of sprites is at its limit (`spec/01` §3.5).
     pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         let rules = self.rules;
         if self.is_full() {
@@ -29,7 +29,7 @@ impl<S: Scheduler> Step<'_, S> {
         self.make(stype, x, y)
     }
 
-    /// Creates a sprite even if a singleton of its line exists.
+    /// Creates a sprite even if the type or an ancestor is a singleton that already has a sprite.
     pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }
@@ -67,8 +67,7 @@ impl<S: Scheduler> Step<'_, S> {
         } else if h == 0 {
             self.stop(Limit::FlatSprite);
         }
-        // Becomes `true` if the sprite is still to be updated in this tick, in which case its age will be 1
-        // at that update.
+        // Becomes `true` if the sprite is still to be updated in this tick. Its age is then 1 at that update.
         let mut due = false;
         if !sprite.is(flag::FROZEN) {
             let order = info.order.map_or(-1, i32::from);
@@ -89,7 +88,7 @@ impl<S: Scheduler> Step<'_, S> {
             return None;
         }
         if rules.fixtures[stype.index()] {
-            // Only levels create fixtures, and nothing needs their slots.
+            // Only levels create fixtures, and no code needs their slots.
             self.world.add_fixture(self.models, sprite, &mut self.scheduler);
             return None;
         }
@@ -97,8 +96,7 @@ impl<S: Scheduler> Step<'_, S> {
             self.stop(Limit::Sprites);
             return None;
         };
-        // Copies of the first sprite have lost the type to leave behind. They leave type 0, which is `wall`,
-        // instead.
+        // Copies of the first sprite lack the type to leave behind, and leave type 0 (`wall`) behind instead.
         if first && class == SpriteClass::OngoingTurningAvatar {
             self.world.edit_overrides(slot).spawns = info.traits.spawn_behind.unwrap_or(SpriteType(0));
         }
@@ -136,8 +134,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.doom(slot);
     }
 
-    /// Makes a sprite the player's avatar. From then on, this sprite is updated and ages instead of the
-    /// previous avatar.
+    /// Makes a sprite the player's avatar. From then on, this sprite is updated and ages, and the previous
+    /// avatar does not.
     pub(crate) fn control(&mut self, slot: Slot) {
         let before = self.world.set_avatar(slot);
         if before != NONE && before != slot && !self.world.sprite(before).is(flag::FROZEN) {

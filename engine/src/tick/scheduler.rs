@@ -32,13 +32,13 @@ pub(crate) trait Scheduler: Watcher + Sized {
         step.visit_first_side(pass, newborn, watch);
     }
 
-    /// Returns `true` if a sprite with the bit `own` may share a cell with a sprite that has any of the bits
-    /// `others`.
+    /// Returns `true` if a sprite with the type bit `own` may share a cell with a sprite that has any of the
+    /// type bits `others`.
     fn may_meet(&self, _world: &World, _own: u64, _others: u64) -> bool {
         true
     }
 
-    /// Called before the two sprites of a hit in a pass are compared.
+    /// Called before a pass compares two sprites that may overlap.
     fn meets(_: &mut Step<'_, Self>, _one: Slot, _two: Slot) {}
 
     /// Called before an effect runs on a sprite and its partners.

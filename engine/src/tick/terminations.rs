@@ -30,7 +30,7 @@ impl Termination {
         counted && world.can_end()
     }
 
-    /// Returns `true` if the player wins through this termination, provided that it holds.
+    /// Returns `true` if the player wins when the termination holds.
     pub(crate) fn wins(&self, world: &World) -> bool {
         match self.decided_by {
             Decision::Line => self.win,
@@ -40,8 +40,8 @@ impl Termination {
         }
     }
 
-    /// Returns `Some(true)` if counters can end the game from now on, `Some(false)` if they cannot, or `None`
-    /// if this termination does not affect that setting.
+    /// Returns `Some(true)` if counters can end the game from now on, and `Some(false)` if they cannot.
+    /// Returns `None` if the termination does not affect this setting.
     pub(crate) fn permits(&self, rules: &Rules, world: &World) -> Option<bool> {
         let Condition::StopCounter { stypes, limit, min } = &self.condition else { return None };
         let sum: i32 = stypes.iter().map(|&stype| world.count_live(rules, stype)).sum();

@@ -1,5 +1,5 @@
-//! Changes to sprites. Every change, whichever rule causes it, is made by a method in this file or by one in
-//! this list:
+//! Changes to sprites. Every change, regardless of its cause, is made by a method in this file or in this
+//! list:
 //!
 //! - [`World::admit`] adds a new sprite, and [`World::release`] removes a sprite. In between, a sprite may be
 //!   on the kill list ([`World::doom`]), or an avatar may be disabled ([`World::disable`]).
@@ -21,7 +21,8 @@ use crate::limits::MAX_SLOTS;
 use crate::world::hash::contribution::Contribution;
 
 impl World {
-    /// Stores `sprite` in a slot, at the end of its type's chain. Returns `None` if all slots are in use.
+    /// Stores `sprite` in a slot, and appends the slot to the type's chain. Returns `None` if all slots are
+    /// in use.
     pub(crate) fn admit(
         &mut self,
         models: &Models,
@@ -75,8 +76,8 @@ impl World {
         sprite
     }
 
-    /// Returns a sprite for modification, but only of its flags, position, age, time to live, count and
-    /// heading.
+    /// Returns a sprite for modification. The caller may change only its flags, position, age, time to live,
+    /// count and heading.
     #[inline(always)]
     pub(crate) fn edit_motion(&mut self, slot: Slot) -> &mut Sprite {
         let sprite = &mut self.sprites[usize::from(slot)];
@@ -87,7 +88,7 @@ impl World {
         sprite
     }
 
-    /// Returns the schedule's note about a sprite.
+    /// Returns the schedule's record of a sprite's activity in this tick.
     #[inline(always)]
     pub(crate) fn activity(&mut self, slot: Slot) -> &mut u16 {
         &mut self.sprites[usize::from(slot)].activity
@@ -114,7 +115,7 @@ impl World {
         self.killed.clear();
     }
 
-    /// Removes a slot from its chains and frees it. After the last such call, the caller must call
+    /// Removes a slot from its chains, and frees the slot. After the last such call, the caller must call
     /// [`World::forget_gone`].
     pub(crate) fn release(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
         let Sprite { stype, next, previous, flags, .. } = *self.sprite(slot);

@@ -2,9 +2,9 @@
 //! Most fixtures are walls.
 //!
 //! Fixtures stay where the level placed them for the whole episode, so all states of a level share them, and
-//! copying a state does not copy them. Their slots count down from the highest slot. The running hash
-//! contains their contributions from the start. They come last in a cell's chain, so that no fixture links to
-//! a sprite of a different kind.
+//! copying a state does not copy them. Their slots are numbered downwards from the highest slot. The running
+//! hash contains their contributions from the start. They come last in a cell's chain, so that no fixture
+//! links to a sprite that is not a fixture.
 
 use super::{Models, NONE, Slot, Sprite, Watcher, World};
 use crate::world::hash::contribution::{Contribution, exchange};
@@ -79,7 +79,7 @@ impl World {
         self.arrive(models.bits[sprite.stype.index()], cell, watcher);
     }
 
-    /// Records all fixtures again after the cells have been emptied.
+    /// Records all fixtures in their cells again, after the cells have been emptied.
     pub(super) fn reenter_fixtures(&mut self, models: &Models, watcher: &mut impl Watcher) {
         for slot in (0..self.fixture_count()).map(|number| mirrored(number) as Slot) {
             let sprite = *self.fixture(slot);

@@ -46,12 +46,12 @@ bytes_of_fields! { Timer { due timed } }
 
 /// An observer of a world, which is notified when types start or stop sharing cells.
 pub(crate) trait Watcher {
-    /// Called when a sprite of the type with the bit `own` has started to cover a cell that is also covered
-    /// by types with the bits `partners`, which rules pair with `own`.
+    /// Called when a sprite of the type with the bit `own` has started to cover a cell. Sprites of the types
+    /// with the bits `partners`, which rules pair with `own`, also cover the cell.
     fn arrives(&mut self, _own: u64, _partners: u64) {}
 
-    /// Called when a sprite of the type with the bit `own` has stopped covering a cell that types with the
-    /// bits `partners` still cover.
+    /// Called when a sprite of the type with the bit `own` has stopped covering a cell. Sprites of the types
+    /// with the bits `partners` still cover the cell.
     fn departs(&mut self, _own: u64, _partners: u64) {}
 
     /// Called when a type gets its first sprite larger than a cell.
@@ -99,7 +99,8 @@ flat! {
             big_bits: u64,
             /// `true` if the counts in `groups` have changed since terminations were last checked.
             census_changed: bool,
-            /// The number of times that a sprite larger than a cell has left cells since `covered` was recomputed.
+            /// The number of times that sprites larger than a cell have left cells since `covered` was
+            /// recomputed.
             left_behind: u32,
             /// The bits of sprites so large that they count as being everywhere.
             vast: u64,
@@ -122,8 +123,8 @@ flat! {
             /// For each cell, the bits of the types that have several sprites in the cell. Empty until a cell
             /// contains several sprites.
             crowds: u64,
-            /// For each cell, the bits of the large sprites that cover the cell or recently did so. Empty if
-            /// there are no large sprites.
+            /// For each cell, the bits of the large sprites that cover the cell or covered it recently. Empty
+            /// if there are no large sprites.
             covered: u64,
             moved: Slot,
             /// The sprites in `moved` whose size has changed, sorted by slot.
@@ -244,7 +245,7 @@ impl World {
         }
     }
 
-    /// Returns the sprite in a slot. The slot must not be that of a fixture, which saves a check.
+    /// Returns the sprite in a slot. The slot must not contain a fixture. This requirement saves a check.
     #[inline(always)]
     pub(crate) fn own(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]

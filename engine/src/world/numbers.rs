@@ -70,7 +70,7 @@ impl World {
         self.chance
     }
 
-    /// Returns the random number generator for drawing random numbers.
+    /// Returns the random number generator, for drawing from it.
     #[inline(always)]
     pub(crate) fn dice(&mut self) -> &mut Chance {
         &mut self.chance
@@ -81,7 +81,7 @@ impl World {
         self.jumps
     }
 
-    /// Returns the second random stream for drawing random numbers.
+    /// Returns the second random stream, for drawing from it.
     pub(crate) fn second_dice(&mut self) -> &mut Chance {
         &mut self.jumps
     }
@@ -117,7 +117,8 @@ impl World {
         self.messages = 0;
     }
 
-    /// Records that terminations have checked the counts, unless `look_again` requests another check.
+    /// Records that terminations have read the current sprite counts, unless `look_again` requests another
+    /// check.
     pub(crate) fn settle_census(&mut self, look_again: bool) {
         self.census_changed = look_again;
     }
@@ -143,7 +144,7 @@ impl World {
         self.timers.pop_if(|timer| timer.due <= self.tick)
     }
 
-    /// Returns an effect's memory. See [`crate::rules::memory`].
+    /// Returns an effect's memory: see [`crate::rules::memory`].
     #[inline(always)]
     pub(crate) fn memory(&self, effect: u16) -> u8 {
         self.memory[usize::from(effect)]
@@ -191,8 +192,8 @@ impl World {
         !self.shields.is_empty() && self.shields.binary_search(&shield).is_ok()
     }
 
-    /// Records that an effect has pulled a sprite in this tick. Returns the number of entries into which the
-    /// new one was sorted, or `None` if the effect has already pulled the sprite.
+    /// Records that an effect has pulled a sprite in this tick. Returns the previous number of entries, or
+    /// `None` if the effect has already pulled the sprite.
     pub(crate) fn pull(&mut self, effect: u16, slot: Slot) -> Option<usize> {
         let at = self.pulled.binary_search(&(effect, slot)).err()?;
         self.pulled.insert(at, (effect, slot));

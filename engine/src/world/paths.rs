@@ -12,7 +12,7 @@ const CLOSED: u8 = u8::MAX;
 /// The cell where a path starts.
 const START: u8 = u8::MAX - 1;
 
-/// A frontier that breaks ties like the reference's binary heap.
+/// A search frontier that breaks ties like the reference's binary heap.
 #[derive(Default)]
 struct Heap {
     /// Pairs of cost and cell.
@@ -63,14 +63,14 @@ impl Heap {
 pub(crate) struct Paths {
     /// For each cell, [`OPEN`] or [`CLOSED`].
     cells: Vec<u8>,
-    /// For each direction, its index and the wrapping offset that a step adds to a cell.
+    /// For each direction, its index and the offset, with wrapping, that a step adds to a cell.
     ahead: Vec<(u8, usize)>,
     /// For each start cell, the first steps of its paths, once they have been requested. Empty for boards
     /// with too many cells.
     known: Vec<OnceLock<Box<[u8]>>>,
 }
 
-/// The maximum number of cells on a board whose paths are stored, at one byte per pair of cells.
+/// The maximum number of cells on a board whose paths are stored. The paths take one byte per pair of cells.
 const MAX_KEPT: usize = 1 << 11;
 
 const DIRECTIONS: [Direction; 4] = [Direction::UP, Direction::DOWN, Direction::LEFT, Direction::RIGHT];
@@ -84,8 +84,8 @@ impl Paths {
         DIRECTIONS.get(usize::from(step).wrapping_sub(1)).copied()
     }
 
-    /// Returns the first step on the path to each cell, as a number above [`OPEN`]. The search stops when it
-    /// reaches the goal.
+    /// Returns the first step on the path to each cell, as a number above [`OPEN`]. The search stops as soon
+    /// as it reaches the goal.
     fn search(&self, start: usize, goal: Option<usize>) -> Box<[u8]> {
         let mut first = self.cells.clone();
         first[start] = START;
@@ -112,8 +112,8 @@ impl Paths {
 
 impl World {
     /// Records the cells that contain an obstacle at the start. These cells remain obstacles for the whole
-    /// episode. Hidden sprites do not count. If the avatar has three actions, all paths in the episode lead
-    /// only left and right, even if the avatar changes.
+    /// episode. Hidden sprites are not obstacles. If the avatar has three actions, all paths in the episode
+    /// lead only left and right, even if the avatar changes.
     pub(crate) fn mark_obstacles(&mut self, rules: &Rules) {
         let mut cells = vec![CLOSED; World::cell_count(self.columns, self.rows)];
         for row in 0..self.rows {

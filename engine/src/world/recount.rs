@@ -48,7 +48,7 @@ impl World {
             let few = [world.multi_cell_bits, world.big_bits, world.vast];
             few.into_iter().chain(world.covered.iter().copied()).collect::<Vec<u64>>()
         };
-        // These bits may contain too many types, but never too few.
+        // These bit sets may contain too many types, but never too few.
         if bits(&fresh).iter().zip(bits(self)).any(|(&fresh, kept)| fresh & !kept != 0) {
             return Err("a sprite in several cells is not known as one".to_owned());
         }

@@ -1,5 +1,5 @@
-//! Scenery: sprites that do nothing on their own and whose types no rule, other sprite or termination refers
-//! to.
+//! Scenery: sprites that do nothing on their own, and to whose types no rule, other sprite or termination
+//! refers.
 //!
 //! Scenery stays where the level placed it for the whole episode. In a typical game, half of all sprites are
 //! the floor, which is scenery. All states of a level share its scenery, so copying a state does not copy it.

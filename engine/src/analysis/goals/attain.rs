@@ -41,8 +41,8 @@ struct PopulationChanges {
     turns: Vec<(SpriteType, SpriteType)>,
 }
 
-/// Determines how each goal can be attained. Cost: one [`PossibleFutures`], and O(types × types) for each of
-/// the first [`MAX_GOALS`] goals. Further goals are assumed to be [`Attainable::InPlay`].
+/// Determines how each goal can be attained. Cost: computing one [`PossibleFutures`], plus O(types × types)
+/// for each of the first [`MAX_GOALS`] goals. Further goals are assumed to be [`Attainable::InPlay`].
 pub(crate) fn find_attainable(
     rules: &Rules,
     facts: &[Facts],
@@ -53,7 +53,8 @@ pub(crate) fn find_attainable(
     let held_up = can_be_held_up(rules);
     for goal in goals.iter_mut().take(MAX_GOALS) {
         goal.attainable = match changes.attainability(&goal.condition, goal.kinds) {
-            // A condition that holds from the start may end the game later, when a StopCounter no longer prevents it.
+            // A condition that holds from the start may end the game only later, once no StopCounter prevents
+            // this.
             Attainable::AtOnce | Attainable::FromStart
                 if held_up && !matches!(goal.condition, Condition::Tick(_)) =>
             {
@@ -95,7 +96,7 @@ impl PopulationChanges {
         changes
     }
 
-    /// Records the population changes caused by these effects, for sprites on both sides.
+    /// Records the population changes that the effects cause among the sprites on both sides.
     fn add(
         &mut self,
         rules: &Rules,
@@ -186,8 +187,7 @@ impl PopulationChanges {
 }
 
 /// Returns `true` if the transforming effects among `effects` also transform a dead avatar again in every
-/// tick. All transforming effects do so except `transformTo`, which has no condition and transforms no other
-/// sprite.
+/// tick. The only exception is `transformTo`, which is unconditional and transforms no other sprite.
 pub(crate) fn turns_dead(effects: &[EffectSummary], precondition: Precondition) -> bool {
     precondition == Precondition::Movement
         || effects
@@ -209,19 +209,19 @@ impl Analysis {
     ///
     /// - The termination never holds.
     /// - The termination holds only from the start of a level.
-    /// - The termination comes after a termination that ends every game in its first tick.
+    /// - The termination comes after a termination that ends every episode in its first tick.
     pub fn can_win(&self) -> bool {
         self.can_end(true, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `false` only if it is proven that no level can be lost by playing it, apart from the reference
-    /// engine's own tick limit. See [`Analysis::can_win`].
+    /// Returns `false` only if it is proven that no level can be lost by playing it, disregarding the
+    /// reference engine's own tick limit. See [`Analysis::can_win`].
     pub fn can_lose(&self) -> bool {
         self.can_end(false, |_, goal| matches!(goal.attainable, Attainable::InPlay | Attainable::AtOnce))
     }
 
-    /// Returns `true` if a termination with this result can be the first to hold. `holds` returns whether a
-    /// goal, passed with its index, can hold.
+    /// Returns `true` if a termination with this result can be the first to hold. `holds` receives a goal and
+    /// its index, and returns whether the goal can hold.
     pub(crate) fn can_end(&self, win: bool, holds: impl Fn(usize, &Goal) -> bool) -> bool {
         for (at, goal) in self.goals.iter().enumerate() {
             let ends = if win { goal.win } else { goal.can_lose() };

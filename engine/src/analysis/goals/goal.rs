@@ -97,14 +97,14 @@ pub struct Aims {
     pub remove: Vec<SpriteType>,
     /// Types whose number of sprites must increase for a win.
     pub create: Vec<SpriteType>,
-    /// Types other than avatars whose loss loses the game.
+    /// Non-avatar types whose disappearance loses the game.
     pub protect: Vec<SpriteType>,
     /// Types whose appearance loses the game.
     pub prevent: Vec<SpriteType>,
-    /// The tick that wins the game if the player survives until then.
+    /// The tick at which the game is won if the player survives until then.
     pub survive: Option<i32>,
-    /// The first tick at which a Timeout loses, or may lose, the game. The reference engine's own tick limit is
-    /// not considered.
+    /// The first tick at which a Timeout loses, or may lose, the game, disregarding the reference engine's
+    /// own tick limit.
     pub deadline: Option<i32>,
     /// `true` if losing the avatar loses the game.
     pub avatar_must_live: bool,
@@ -191,8 +191,8 @@ impl Analysis {
     }
 
     /// Returns `true` if the total number of sprites of these types never exceeds the number at the start of
-    /// a level: every effect that creates such a sprite uses up another. Effects that transform a dead avatar
-    /// again in every tick do not meet this condition. Cost: O(encounters × types).
+    /// a level: every effect that creates such a sprite uses up another one. Effects that transform a dead
+    /// avatar again in every tick do not meet this condition. Cost: O(encounters × types).
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);
@@ -209,8 +209,8 @@ impl Analysis {
                 let tree = game.sprite_types().filter(|stype| self.applies(written, *stype));
                 tree.into_iter().any(|stype| game.class(stype).is_some_and(SpriteClass::is_avatar))
             };
-            // A second `transformToAll` in the same tick also turns the sprites that the first has already
-            // turned.
+            // A second `transformToAll` in the same tick also transforms the sprites that the first one has
+            // already transformed.
             let takes_one = !matches!(effect, EffectSummary::Make(_) | EffectSummary::BecomeAll(..))
                 && first.is_some_and(|first| all_of(first) && !(turns_dead && is_avatar(first)));
             effect.makes().iter().any(one_of) && !takes_one

@@ -19,7 +19,7 @@ pub enum WinMethod {
     Take,
     /// The avatar touches moving sprites.
     Catch,
-    /// The avatar's shots remove moving sprites, or the shots themselves move.
+    /// The avatar's shots remove sprites, and either these sprites or the shots move.
     Shoot,
     /// A sprite that the avatar places, and that stays in its cell, removes a sprite that does not move.
     Tool,
@@ -156,7 +156,7 @@ impl WinMethods<'_> {
         methods
     }
 
-    /// Returns `true` if a motionless type whose touch counts towards a win is a destination, rather than one
+    /// Returns `true` if a motionless type that the avatar touches to win is a destination, rather than one
     /// of many items to collect.
     fn is_like_an_exit(&self, stype: SpriteType) -> bool {
         let Analysis { game, aims, touches, .. } = self.analysis;

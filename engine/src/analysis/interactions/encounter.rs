@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 /// A summary of one interaction line for one of its partners.
 #[derive(Clone, Debug)]
 pub struct Encounter {
-    /// The first type, as written. The rule also holds for all its relatives (see
+    /// The first type, as written. The rule also applies to all its relatives (see
     /// [`Analysis::applies`](crate::analysis::Analysis::applies)).
     pub first: SpriteType,
     /// The partner, as written, or `None` for the edge of the screen.
@@ -33,8 +33,8 @@ impl Encounter {
         self.effects.iter().any(wanted)
     }
 
-    /// Returns `true` if the interaction blocks the first sprite by moving either that sprite or every sprite
-    /// back.
+    /// Returns `true` if the interaction blocks the first sprite by moving back either that sprite or every
+    /// sprite.
     pub fn blocks(&self) -> bool {
         self.does(|effect| matches!(effect, EffectSummary::Stop | EffectSummary::Undo(_)))
     }
@@ -67,14 +67,14 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let edge = edge.map(|&(stype, effect)| (stype, None, effect, u16::MAX));
     let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect, pass.keyword));
     for key in edge.chain(pairs) {
-        // Duplicates of a pass or an edge effect are close together.
+        // Duplicate passes and edge effects are close together.
         if !seen.iter().rev().take(64).any(|other| *other == key) {
             seen.push(key);
         }
     }
     let encounter = |(first, second, effect, keyword): (SpriteType, Option<SpriteType>, u16, u16)| {
         let info = &rules.effects[usize::from(effect)];
-        // At the edge, an effect that needs a partner does nothing but change the score.
+        // At the edge, an effect that needs a partner only changes the score.
         let runs = second.is_some() || !info.summary.needs_partner;
         let mut effects = if runs { info.summary.effects.clone() } else { SmallVec::new() };
         effects.extend(info.summary.schedules.into_iter().flat_map(|timed| global_part(rules, timed)));
@@ -93,8 +93,8 @@ pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     seen.into_iter().map(encounter).collect()
 }
 
-/// Returns the timed effects, each with its target type. The target is `None` if the effect does not run on a
-/// particular sprite.
+/// Returns the timed effects, each with its target type. The target is `None` if the effect does not run on
+/// any particular sprite.
 pub(crate) fn timed_effects(rules: &Rules) -> Vec<(Option<SpriteType>, SmallVec<[EffectSummary; 2]>)> {
     let effects = |effect: u16| {
         let mut effects = rules.effects[usize::from(effect)].summary.effects.clone();

@@ -33,7 +33,7 @@ pub struct Lock {
     pub stype: SpriteType,
     /// The requirement for opening the lock.
     pub key: Key,
-    /// `true` if the sprite blocks or harms the avatar until it is opened, so that it can guard the cells
+    /// `true` if the lock blocks or harms the avatar until it is opened, and can therefore guard the cells
     /// behind it.
     pub guards: bool,
     /// `true` if opening removes the sprite, and `false` if the avatar then passes through it.
@@ -74,8 +74,8 @@ pub enum Fate {
     Goes,
 }
 
-/// A collision between a pushed sprite and a partner. The collision removes or changes either sprite, or
-/// opens something.
+/// A collision between a pushed sprite and a partner. The collision removes or changes either sprite, or all
+/// sprites of some other type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sink {
     /// The partner: a sprite on the cell, or another pushable sprite.
@@ -95,11 +95,12 @@ pub struct Pushable {
     pub stype: SpriteType,
     /// The types onto which a sprite of this type cannot be pushed.
     pub blocked_by: Vec<SpriteType>,
-    /// The collisions with partner types that remove or change either sprite, or open something.
+    /// The collisions with partner types that remove or change either sprite, or all sprites of some other
+    /// type.
     pub sinks: Vec<Sink>,
 }
 
-/// The touch results for every avatar type and every type: one row per avatar, with one entry per type.
+/// The touch results: one row per avatar type, with one entry per type.
 pub(crate) type Touches = Vec<Vec<Touch>>;
 
 pub(crate) fn pushables(
@@ -216,7 +217,7 @@ pub(crate) fn givers(facts: &[Facts], touches: &Touches) -> Givers {
     changes(facts, touches, |by| by)
 }
 
-/// Returns, for each resource, the types whose touch changes its amount. `share` maps each change to a
+/// Returns, for each resource, the types that change its amount on contact. `share` maps each change to a
 /// number. Each type is paired with its highest number, and types without a positive number are omitted.
 fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Givers {
     let mut givers: Givers = vec![Vec::new(); facts.len()];
@@ -234,7 +235,7 @@ fn changes(facts: &[Facts], touches: &Touches, share: impl Fn(i32) -> i32) -> Gi
     givers
 }
 
-/// Returns the types whose touch turns some avatar into `avatar`, each with an amount of 1.
+/// Returns the types that turn some avatar into `avatar` on contact, each with an amount of 1.
 fn turners(facts: &[Facts], touches: &Touches, avatar: SpriteType) -> Vec<(SpriteType, i32)> {
     let turns = |stype: SpriteType| touches.iter().any(|row| row[stype.index()].becomes == Some(avatar));
     let types = (0u16..).map(SpriteType).zip(facts).filter(|(_, fact)| fact.possible);
@@ -272,8 +273,8 @@ pub(crate) fn locks(
         } else if still {
             let later = avatars.iter().zip(touches).skip(1).find_map(|(avatar, row)| {
                 let then = &row[stype.index()];
-                // An avatar that keeps moving on its own, or that the touch transforms, does not count as
-                // having passed.
+                // An avatar that keeps moving on its own, or that is transformed on contact, does not count
+                // as having passed.
                 let settled = avatar.steering != Steering::Unsteered && then.becomes.is_none();
                 let opens = then.ends_other() && !first.ends_other() && then.harm == Harm::None;
                 let passes = guards && then.lets_pass() && !first.ends_other();

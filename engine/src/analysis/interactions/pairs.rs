@@ -4,7 +4,7 @@
 use super::encounter::{EffectSummary, Encounter, Side};
 use crate::rules::{Rules, SpriteType};
 
-/// The maximum number of interactions between two types to consider. Interactions that come later in a tick
+/// The maximum number of interactions to consider for a pair of types. Interactions that come later in a tick
 /// are assumed to be repetitions. Real games have only a few interactions per pair.
 pub const MAX_RULES_PER_PAIR: u16 = 64;
 
@@ -34,7 +34,7 @@ impl<'a> Pairs<'a> {
 
     /// Visits the interactions of a type with every other type, in the order in which a tick checks them.
     /// `visit` receives the other type, the side of `own`, and the interaction. If the type matches both
-    /// sides, the side is the first.
+    /// sides, `visit` receives the first side.
     pub(crate) fn with(&self, own: SpriteType, mut visit: impl FnMut(SpriteType, Side, &Encounter)) {
         let mut seen = vec![0u16; self.rules.types.len()];
         let mut visit = |group: &Group<'_>, other: SpriteType, side: Side| {

@@ -65,7 +65,7 @@ pub struct Touch {
     pub makes: Vec<SpriteType>,
     /// The sum of the score changes.
     pub score: i32,
-    /// `true` if there is any interaction between the two types.
+    /// `true` if any interaction involves the two types.
     pub any: bool,
 }
 

@@ -4,9 +4,9 @@ use crate::numbers::geometry::Direction;
 
 /// A board with a ring of one cell around it, which stands for everything outside.
 ///
-/// A position off the board counts as the nearest ring cell. A move by some number of cells therefore takes
-/// at most that number of steps between the corresponding cells. A sprite that leaves the board and returns
-/// elsewhere has a path along the ring.
+/// A position off the board counts as the nearest ring cell. A move by n cells therefore takes at most n
+/// steps between the corresponding cells. A sprite that leaves the board and returns elsewhere has a path
+/// along the ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Board {
     pub(super) columns: i32,
@@ -148,7 +148,7 @@ impl Cells {
     }
 
     /// Adds the cells of a line that are at most `distance` away, along the line, from a cell in `from`. The
-    /// line leads from `start` in steps of `step`.
+    /// line starts at `start` and advances by `step`.
     fn smear(&mut self, from: &Cells, (start, step): (usize, usize), length: usize, distance: i32) {
         for back in [false, true] {
             let mut left = 0;

@@ -10,7 +10,7 @@ use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, SpeedChange, SpeedEffect, Spot, Turn};
 
 impl Model<'_> {
-    /// Applies the collision's effect on speeds.
+    /// Applies a collision's effect on speeds.
     pub(super) fn speed_up(&mut self, meeting: &Meeting<'_>) {
         let rules = self.rules;
         match meeting.summary(rules).speed {
@@ -33,7 +33,7 @@ impl Model<'_> {
                 }
             }
             Some(SpeedEffect::AtLeastGravity) => {
-                // The minimum speed after such a collision is that of gravity.
+                // After such a collision, the sprite's speed is at least its gravity.
                 if let Some(one) = meeting.one {
                     let gravity = rules.types[one.index()].traits.gravity.max(0.2);
                     let own = &mut self.mobility[one.index()];
@@ -100,7 +100,7 @@ impl Model<'_> {
         }
     }
 
-    /// Applies the collision's effect on orientation and on the ability to move.
+    /// Applies a collision's effect on orientation and on the ability to move.
     pub(super) fn meet(&mut self, meeting: &Meeting<'_>) {
         let summary = meeting.summary(self.rules);
         let all = summary.becomes_all();
@@ -274,12 +274,12 @@ impl Model<'_> {
         (new.straight, new.moved_any_distance) = (false, true);
     }
 
-    /// Accounts for a sprite being carried at another sprite's speed.
+    /// Applies the effect of a sprite being carried at another sprite's speed.
     fn carry(&self, one: SpriteType, two: Option<SpriteType>, new: &mut Mobility) {
         let distance = two.map_or(1.0, |two| self.carried(one, two));
         new.boundless |= self.is_out_of_range(distance);
         if self.info(one).order.is_none() {
-            // The last position of such a sprite is never updated.
+            // The last position of a carried sprite is never updated.
             (new.placed, new.moved_any_distance) = (true, true);
             new.moved = Directions::ALL;
         }

@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Spot, Summary, Turn};
 
 impl Events<'_> {
-    /// Applies an effect to sprite positions. `cells` are the cells of the collision.
+    /// Applies an effect to sprite positions. `cells` contains the cells of the collision.
     pub(super) fn run(&mut self, meeting: &Meeting<'_>, one: SpriteType, cells: &Cells) {
         let at = meeting.order;
         let summary = meeting.summary(self.flood.model.rules);
@@ -144,7 +144,7 @@ impl Events<'_> {
         }
     }
 
-    /// Turns colliding sprites in these cells into sprites of a different type.
+    /// Turns colliding sprites in the given cells into sprites of a different type.
     fn turn(&mut self, from: SpriteType, to: SpriteType, cells: &Cells, at: Order) {
         let model = self.flood.model;
         if !model.exists[to.index()] {
@@ -161,7 +161,7 @@ impl Events<'_> {
         }
     }
 
-    /// Applies an effect to the directions of the affected sprites in these cells.
+    /// Applies an effect to the directions of the affected sprites in the given cells.
     fn turn_to(&mut self, one: SpriteType, cells: &Cells, summary: &Summary) {
         let model = self.flood.model;
         let own = *model.of_type(one);
@@ -173,8 +173,8 @@ impl Events<'_> {
         if !turns || !own.is_steady() {
             return;
         }
-        // By the end of the tick, the sprite may be back at its previous position, or anywhere that something
-        // has moved it.
+        // By the end of the tick, the sprite may be back at its previous position, or at any position to
+        // which something has moved it.
         let far = own.stride.max(model.pushed_far(one)).saturating_add(model.spread(one));
         let far = if own.placed || own.moved_any_distance {
             self.board().side() + 2
@@ -199,13 +199,14 @@ impl Events<'_> {
             own.stride.saturating_add(1 + model.spread(one))
         };
         let from = board.around(cells, far.saturating_add(model.pushed_far(one))).shared(self.rest(one));
-        // The sprite takes two steps of one cell each. If a step can be a mere turn, the sprite can move less.
+        // The sprite takes two steps of one cell each. If a step can be a mere turn, the sprite can move by
+        // fewer cells.
         let exact = !own.off_grid && own.top <= 1.0 && !traits.rotate_in_place;
         let most = 2 * model.stride(own.top.max(1.0)).0;
         // A negative speed moves the sprite up.
         let signs: &[i32] = if own.backwards { &[1, -1] } else { &[1] };
         for cell in from.iter() {
-            // A sprite that starts further outside the board gets less far into it.
+            // A sprite that starts further outside the board ends up less far inside it.
             let least = if exact && !board.is_ring(cell) { 2 } else { 1 };
             for (&sign, times) in signs.iter().flat_map(|sign| (least..=most).map(move |times| (sign, times)))
             {

@@ -16,7 +16,7 @@ const PLENTY: i64 = i64::MAX;
 /// cell.
 pub(super) type Placed = Vec<Vec<(usize, u32)>>;
 
-/// Applies the effects of collisions until nothing changes.
+/// The main fixed point, which applies the effects of collisions until nothing changes.
 pub(super) struct Events<'a> {
     pub(super) flood: Flood<'a>,
     placed: &'a Placed,
@@ -126,7 +126,7 @@ impl<'a> Events<'a> {
         self.placed
     }
 
-    /// Returns the sources of resources, by the resource and by the type that gives it.
+    /// Returns the sources of resources, by resource and by giving type.
     pub(super) fn gifts(&mut self) -> BTreeMap<(SpriteType, SpriteType), Gift> {
         let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
         for meeting in self.flood.model.meetings {
@@ -140,7 +140,7 @@ impl<'a> Events<'a> {
                     (self.flood.model.info(one).traits.resource, one, value, used_up)
                 }
                 Some(Gives::Amount { resource, value, used_up }) => {
-                    // A sprite that has been used up can be met once more in the same tick.
+                    // A sprite that has been used up can collide once more in the same tick.
                     (resource, two, i64::from(value) * i64::from(meeting.times), used_up)
                 }
                 None => continue,
@@ -193,13 +193,13 @@ impl<'a> Events<'a> {
         }
     }
 
-    /// Returns the cells that sprites of two types can share at this point in a tick.
+    /// Returns the cells that sprites of two types can share at the given point in a tick.
     fn met(&self, one: SpriteType, two: SpriteType, at: Order) -> Cells {
         self.flood.present(one, at, true).shared(&self.flood.present(two, at, false))
     }
 
-    /// Processes a possible collision of two types, if any of its inputs has changed. Returns `true` if
-    /// either region has changed.
+    /// Processes a possible collision of two types, if any of its inputs has changed. Returns `true` if the
+    /// region of either type has changed.
     fn meet(&mut self, at: usize) -> bool {
         let meeting = self.flood.model.meetings[at];
         let version =
@@ -246,7 +246,7 @@ impl<'a> Events<'a> {
         self.end(meeting, &Cells::default());
     }
 
-    /// Removes the sprites that a collision in these cells can remove.
+    /// Removes the sprites that a collision in the given cells can remove.
     fn end(&mut self, meeting: &Meeting<'_>, cells: &Cells) {
         for End { stype, scope, .. } in meeting.ends(self.flood.model.rules) {
             let at = match scope {

@@ -7,8 +7,8 @@ use super::model::Model;
 use crate::rules::SpriteType;
 use crate::rules::effects::{Displacement, EffectSummary, Precondition, Side};
 
-/// The maximum number of cells to examine, beyond which the result is coarse. Typical levels require tens of
-/// thousands.
+/// The maximum number of cells to examine. Beyond this limit, the result is coarse. Typical levels require
+/// tens of thousands.
 const BUDGET: u64 = 1 << 23;
 
 /// The cells that sprites of a type can reach.
@@ -50,11 +50,11 @@ pub(super) struct Flood<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) board: Board,
     pub(super) regions: Vec<Region>,
-    /// For each type, the cells that its sprites occupy from the start and, as far as is known, permanently.
+    /// For each type, the cells that its sprites occupy from the start and, as far as is known, never leave.
     pub(super) permanent: Vec<Cells>,
     /// For each type, the cells where a sprite can be removed.
     pub(super) removable: Vec<Cells>,
-    /// The number of times that a type has become removable in additional cells.
+    /// The number of times that sprites of some type became removable in additional cells.
     pub(super) ends: u64,
     /// For each type, whether its sprites can appear during an episode.
     pub(super) made: Vec<bool>,
@@ -239,9 +239,9 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Returns the cells where a sprite can be at this point in a tick. If `first` is `true`, the sprite has
-    /// not been removed in this tick. If `first` is `false`, the sprite may have been removed, in which case
-    /// nothing stops it any longer.
+    /// Returns the cells where a sprite of the type can be at the given point in a tick. If `first` is
+    /// `true`, the sprite has not been removed in this tick. If `first` is `false`, the sprite may have been
+    /// removed, in which case nothing stops it any longer.
     pub(super) fn present(&self, stype: SpriteType, at: Order, first: bool) -> Cells {
         let Region { touch, late, rest, .. } = &self.regions[stype.index()];
         let mut cells = touch.clone();
@@ -254,8 +254,8 @@ impl<'a> Flood<'a> {
         cells
     }
 
-    /// Returns `true` if something keeps sprites of a type out of a cell after this point in a tick, or
-    /// removes them there.
+    /// Returns `true` if something keeps sprites of the type out of a cell after the given point in a tick,
+    /// or removes them there.
     fn is_barred(&self, stype: SpriteType, cell: usize, after: Order, kills_only: bool) -> bool {
         let bars = self.bars[stype.index()].iter();
         bars.filter(|bar| bar.last > after && (bar.kills || !kills_only)).any(|bar| match bar.by {
@@ -264,7 +264,7 @@ impl<'a> Flood<'a> {
         })
     }
 
-    /// Returns the types whose sprites permanently keep sprites of a type out of a cell, or remove them
+    /// Returns the types whose sprites permanently keep sprites of `stype` out of a cell, or remove them
     /// there.
     pub(super) fn barring(&self, stype: SpriteType, cell: usize) -> impl Iterator<Item = SpriteType> + '_ {
         let bars = self.bars[stype.index()].iter().filter_map(|bar| bar.by);
@@ -303,7 +303,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Turns sprites in these cells between two ticks. `turn` maps the old directions to the new directions.
+    /// Turns sprites in the given cells between two ticks. `turn` maps the old directions to the new
+    /// directions.
     pub(super) fn face(&mut self, stype: SpriteType, cells: &Cells, turn: impl Fn(Directions) -> Directions) {
         if self.regions[stype.index()].headings.is_empty() {
             return;
@@ -318,7 +319,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that enters a cell at this point in a tick, in one of these directions.
+    /// Adds a sprite that enters a cell at the given point in a tick, facing one of the given directions.
     pub(super) fn come(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
         self.touch(stype, cell, at);
         if !self.is_barred(stype, cell, at, false) {
@@ -326,7 +327,7 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Adds a sprite that appears in a cell at this point in a tick, in one of these directions.
+    /// Adds a sprite that appears in a cell at the given point in a tick, facing one of the given directions.
     pub(super) fn appear(&mut self, stype: SpriteType, cell: usize, at: Order, heading: Directions) {
         if !self.model.exists[stype.index()] {
             return;
@@ -349,7 +350,7 @@ impl<'a> Flood<'a> {
         self.rest_at(stype, cell, heading);
     }
 
-    /// Records that sprites of a type can be removed in these cells.
+    /// Records that sprites of the type can be removed in the given cells.
     pub(super) fn end(&mut self, stype: SpriteType, cells: &Cells) {
         if !self.model.exists[stype.index()] {
             return;
@@ -364,7 +365,7 @@ impl<'a> Flood<'a> {
                 let region = &self.regions[stype.index()];
                 let waiting = region.touch.contains(cell) && !region.spread.contains(cell);
                 if waiting && !self.is_barred(stype, cell, Order::UPDATE, false) {
-                    // It is unknown how the sprite came there, so assume a full jump.
+                    // It is unknown how the sprite got there, so assume a full jump.
                     if let Some(climb) = self.climbs[stype.index()] {
                         self.regions[stype.index()].rises[cell] = climb;
                     }
@@ -461,8 +462,8 @@ impl<'a> Flood<'a> {
         }
     }
 
-    /// Moves a sprite in one direction by up to some number of cells, after which it has one of these
-    /// headings.
+    /// Moves a sprite in one direction by at most the given number of cells. The sprite then faces one of the
+    /// given directions.
     pub(super) fn go(
         &mut self,
         stype: SpriteType,

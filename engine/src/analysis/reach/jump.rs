@@ -1,4 +1,4 @@
-//! The maximum height above the ground that avatars with gravity, which walk and jump, can reach.
+//! The maximum height above the ground that a walking and jumping avatar with gravity can reach.
 //!
 //! The following bound holds as long as nothing changes the avatar's velocity except its own update and the
 //! sprites that stop it. If anything else can change it, the avatar is assumed to fly.
@@ -28,8 +28,8 @@ use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
 use crate::rules::effects::{Displacement, EffectSummary, SpeedEffect};
 
-/// Returns the number of rows by which one jump can lift a sprite of the type, or `None` if gravity does not
-/// limit the jump.
+/// Returns the maximum number of rows by which a jump lifts a sprite of the type, or `None` if gravity does
+/// not limit the jump.
 pub(super) fn climb(model: &Model<'_>, stype: SpriteType) -> Option<i32> {
     let info = model.info(stype);
     let (own, traits) = (model.of_type(stype), &info.traits);

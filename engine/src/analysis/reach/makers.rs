@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 use crate::rules::class::{ClassFamily, SpriteClass};
 
 impl Events<'_> {
-    /// Adds the sprites that types create by themselves.
+    /// Adds the sprites that existing sprites create on their own.
     pub(super) fn make(&mut self) {
         for maker in self.flood.model.types() {
             if !self.can_occur(maker) || self.flood.is_over_budget() {
@@ -33,7 +33,7 @@ impl Events<'_> {
         }
     }
 
-    /// Returns the directions that a maker facing in these directions gives to a new sprite.
+    /// Returns the directions that a maker facing in the given directions can pass on to a new sprite.
     fn given(&self, maker: SpriteType, made: SpriteType, facing: Directions) -> Directions {
         let model = self.flood.model;
         let born = model.born(made);
@@ -83,7 +83,7 @@ impl Events<'_> {
         }
     }
 
-    /// Returns, for each of these directions, the cells one body length ahead in that direction.
+    /// Returns, for each of the given directions, the cells one body length ahead in that direction.
     fn ahead(&self, from: &Cells, facing: Directions, grown: i32) -> Vec<(Cells, Directions)> {
         let board = self.board();
         if facing.meets(Directions::ASKEW) {

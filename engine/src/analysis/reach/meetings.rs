@@ -1,4 +1,4 @@
-//! The possible collisions, one pair of types at a time, in the order of a tick.
+//! The possible collisions, one pair of types at a time, in the order in which a tick processes them.
 
 use super::super::futures::PossibleFutures;
 use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Precondition, Side};
@@ -56,11 +56,11 @@ pub(super) struct Meeting<'a> {
 pub(super) struct End {
     pub(super) stype: SpriteType,
     pub(super) scope: RemovalScope,
-    /// `true` if avatars are removed, too. Avatars that are only killed stay in their cell.
+    /// `true` if avatars are removed, too. Avatars that are merely killed stay in their cell.
     pub(super) for_good: bool,
 }
 
-/// The sprites that a collision can remove, relative to its cells.
+/// The sprites that a collision can remove, relative to the collision's cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RemovalScope {
     First,

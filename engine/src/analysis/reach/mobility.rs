@@ -103,7 +103,7 @@ impl Model<'_> {
         }
     }
 
-    /// Returns the possible directions of a new sprite of the type, if nothing else determines them.
+    /// Returns the possible directions of a new sprite of the type, unless something else determines them.
     pub(super) fn born(&self, stype: SpriteType) -> Directions {
         let info = self.info(stype);
         let draws =
@@ -111,7 +111,7 @@ impl Model<'_> {
         if draws { Directions::FOUR } else { Directions::of(info.traits.orientation) }
     }
 
-    /// Computes the directions and distances in which a type's own update moves its sprites.
+    /// Computes how far and in which directions a type's own update moves its sprites.
     pub(super) fn move_by_itself(&mut self, stype: SpriteType) {
         use ClassFamily as Family;
         use SpriteClass as C;

@@ -8,7 +8,7 @@
 //! - obstacles, which last until a key, a shot or a push removes them
 //! - the resources that can be obtained
 //!
-//! The result is an over-approximation: it contains everything that can happen, and possibly more. It is
+//! The result is an over-approximation: it contains every cell that can be reached, and possibly more. It is
 //! exact in three respects:
 //!
 //! - Permanent walls keep out the sprites that they stop, unless a later interaction in the same tick moves a
@@ -26,20 +26,20 @@
 //!   stops no sprite.
 //! - With continuous physics, a sprite whose velocity is changed by forces counts as flying: it moves in any
 //!   direction, as far per tick as its maximum speed allows. An avatar that falls and jumps (see `jump.rs`)
-//!   rises no higher above the ground than a jump lifts it, but moves sideways in the air without limit.
-//! - Keys are counted, but the cost of using them is considered only if every removal that a win needs takes
-//!   some of the same resource (`payment`).
+//!   rises no higher above the ground than a jump can lift it, but moves sideways in the air without limit.
+//! - Keys are counted, but the cost of using them is considered only if every removal that a win requires
+//!   costs some of the same resource (`payment`).
 //!
 //! The algorithm has four steps:
 //!
-//! 1. `meetings` lists which types can meet, with which effects.
-//! 2. From the meetings, `model` derives how each type can move (`mobility` by itself, `contact` by others),
-//!    before any cell is examined.
+//! 1. `meetings` lists the pairs of types that can collide, with the effects.
+//! 2. From the collisions, `model` derives how each type can move by itself (`mobility`) and be moved by
+//!    other types (`contact`). No cell is examined yet.
 //! 3. `events` iterates until nothing changes. In each round, types spread over the cells (`flood`, `jump`),
 //!    create other types (`makers`), and collide (`effects`).
 //! 4. `tally` determines the terminations that can no longer hold.
 //!
-//! A round costs O(types × cells + meetings × cells / 64), and there are about as many rounds as there are
+//! A round costs O(types × cells + meetings × cells / 64), and the number of rounds is about the number of
 //! locks that open one after the other. Both the number of meetings and the number of examined cells are
 //! limited. Beyond these limits, the result is coarse: every type that can occur is assumed to be everywhere.
 //!
@@ -77,8 +77,8 @@ pub use reasons::chain::{Blocker, Chain, Missing, Obstacle, Shortage, Source, Un
 use reasons::tally::Tally;
 
 /// For each type, the cells of one level in which its sprites can ever be. The cells are a proven
-/// over-approximation: sprites are never in any other cell. Time, harm and crowding are ignored, so
-/// everything that can be opened counts as open, and nothing stays in the way.
+/// over-approximation: sprites are never in any other cell. Time, harm and crowding are ignored, so every
+/// lock that can be opened counts as open, and obstacles that can disappear or move do not block the way.
 ///
 /// Cells are indices into [`Level::cells`], row-major. A sprite is in every cell that it overlaps.
 #[derive(Clone, Debug)]
@@ -142,9 +142,9 @@ impl Reach {
         self.avatars.iter().any(|&stype| self.can_touch(stype, cell))
     }
 
-    /// Returns, in order, the terminations that provably never hold in this level, given the cells that its
-    /// sprites can reach. Terminations that never hold in any level for other reasons are marked by
-    /// [`Goal::attainable`](super::Goal::attainable).
+    /// Returns, in order of priority, the terminations that provably never hold in this level, given the
+    /// cells that its sprites can reach. Terminations that never hold in any level for other reasons are
+    /// marked by [`Goal::attainable`](super::Goal::attainable).
     pub fn impossible_goals(&self) -> &[ImpossibleGoal] {
         &self.impossible_goals
     }
@@ -154,7 +154,7 @@ impl Reach {
         self.can_win
     }
 
-    /// Returns `false` only if losing this level is provably impossible, apart from the reference engine's
+    /// Returns `false` only if losing this level is provably impossible, disregarding the reference engine's
     /// own tick limit.
     pub fn can_lose(&self) -> bool {
         self.can_lose
@@ -201,7 +201,7 @@ impl Analysis {
         chains.unwrap_or_default()
     }
 
-    /// Returns the sprites that the level places, and its board.
+    /// Returns the sprites that a level places, and the level's board.
     fn placed(&self, level: &Level) -> (Placed, Board) {
         let board = Board { columns: level.columns() as i32, rows: level.rows() as i32 };
         let mut placed: Placed = vec![Vec::new(); self.game.0.types.len()];
@@ -230,7 +230,8 @@ impl Analysis {
         PossibleFutures::of(rules, &self.facts, &self.encounters, start)
     }
 
-    /// Computes the fixed point and passes it to `read`. Returns `None` if the work budget is exceeded.
+    /// Computes the fixed point, and returns the result of `read` on it. Returns `None` if the work budget is
+    /// exceeded.
     fn settled<T>(
         &self,
         futures: &PossibleFutures<'_>,
@@ -291,7 +292,7 @@ impl Analysis {
         impossible_goals: Vec<ImpossibleGoal>,
         coarse: bool,
     ) -> Reach {
-        // A level may place a different avatar than the game intends.
+        // A level may place an avatar other than the one that the game intends.
         let is_avatar = |stype: &SpriteType| self.game.class(*stype).is_some_and(SpriteClass::is_avatar);
         let avatars = self.game.sprite_types().filter(is_avatar).collect();
         let hindered =

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 /// hundred.
 const MAX_STEPS: usize = 1 << 21;
 
-/// The derived facts about all types.
+/// The mobility and related facts of all types, derived from the rules.
 pub(super) struct Model<'a> {
     pub(super) rules: &'a Rules,
     pub(super) board: Board,
@@ -116,8 +116,8 @@ impl<'a> Model<'a> {
         (0..exists.len()).filter(|&at| exists[at]).map(|at| SpriteType(at as u16))
     }
 
-    /// Returns the number of cells by which two sprites of the type in the same cell can extend beyond that
-    /// cell.
+    /// Returns the maximum number of cells by which two sprites of the type in the same cell can extend
+    /// beyond that cell.
     pub(super) fn spread(&self, stype: SpriteType) -> i32 {
         if self.of_type(stype).off_grid { self.rules.reach.max(1) } else { 0 }
     }
@@ -193,7 +193,8 @@ impl<'a> Model<'a> {
         distance.is_nan() || distance * self.block >= 1e6
     }
 
-    /// Returns the number of cells that a move over this distance can enter, and the number of cells that it can skip.
+    /// Returns the maximum number of cells that a move over the given distance can enter, and the maximum
+    /// number that it can skip.
     pub(super) fn stride(&self, distance: f64) -> (i32, i32) {
         let most = self.board.side() + 2;
         // A sprite that moves by less than its own size plus one cell overlaps every cell on its way, either
@@ -202,10 +203,11 @@ impl<'a> Model<'a> {
         ((distance.ceil() as i32).min(most), leap.min(most))
     }
 
-    /// Returns the distance, in cells, of a move at another sprite's speed.
+    /// Returns the distance, in cells, of a move in which a sprite is carried at another sprite's speed.
     pub(super) fn carried(&self, one: SpriteType, by: SpriteType) -> f64 {
         let (one, by) = (self.of_type(one), self.of_type(by));
-        // A speed of 0 stands for the sprite's own speed. If that is 0 as well, it stands for 1.
+        // A speed of 0 stands for the sprite's own speed. If the sprite's own speed is 0 as well, a speed of
+        // 1 is used.
         by.top.max(one.top).max(1.0)
     }
 
@@ -217,7 +219,7 @@ impl<'a> Model<'a> {
     }
 
     /// Returns `true` if a sprite that stops flush against another sprite ends where its own movement would
-    /// have taken it. In that case, the other sprite was there from the start and does not move.
+    /// have taken it. This requires the other sprite to be there from the start and not to move.
     pub(super) fn stops_in_order(&self, one: SpriteType, two: SpriteType) -> bool {
         let (own, partner) = (self.of_type(one), self.of_type(two));
         let stands = partner.fixed && !partner.off_grid && !self.made[two.index()];

@@ -9,7 +9,7 @@ use crate::rules::traits::Traits;
 use crate::rules::{Rules, SpriteType};
 use std::collections::BTreeSet;
 
-/// The cell size, in pixels, on a board of the usual size.
+/// The cell size in pixels on a board of typical size.
 const USUAL_BLOCK: i32 = 40;
 
 /// The way in which a type's sprites move on their own.
@@ -85,7 +85,7 @@ impl Avatar {
 pub struct Facts {
     /// `true` if the type has a class, so that its sprites can exist.
     pub concrete: bool,
-    /// `true` if sprites of the type can be on the board at some time: placed by a level, or created from
+    /// `true` if sprites of the type can ever be on the board, either placed by a level or created by
     /// existing sprites. Levels are assumed not to use characters that the game leaves unused: see
     /// [`Analysis::can_exist`](crate::analysis::Analysis::can_exist).
     pub possible: bool,
@@ -103,7 +103,7 @@ pub struct Facts {
     pub span: (usize, usize),
     /// `true` if sprites of the type live for only a few ticks.
     pub fleeting: bool,
-    /// `true` if at most one sprite of the type exists at a time (counting its singleton relatives).
+    /// `true` if at most one sprite of the type, including its singleton relatives, exists at a time.
     pub singleton: bool,
     /// `true` if the type can be held as a resource.
     pub is_resource: bool,
@@ -112,8 +112,8 @@ pub struct Facts {
 }
 
 pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
-    // Sprites with continuous physics move by pixels. If the game does not set the size of a cell, assume the
-    // usual size.
+    // Sprites with continuous physics move by pixels. If the game does not set the cell size, assume the
+    // typical size.
     let block = f64::from(rules.square_size.unwrap_or(USUAL_BLOCK));
     let effects = || rules.effects.iter().map(|effect| &effect.summary);
     let takes_orientation = effects().any(|summary| summary.takes_orientation);
@@ -241,7 +241,7 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
 fn motion(class: SpriteClass, traits: &Traits, oriented: bool) -> Motion {
     use SpriteClass as C;
     let drifts = !traits.is_static && !traits.only_active && traits.speed != 0.0;
-    // `stationary` only prevents a sprite from choosing moves itself, and only with grid physics.
+    // `stationary` merely prevents a sprite with grid physics from choosing its own moves.
     let walks = !traits.stationary || traits.continuous;
     let follows = class.is_a(C::Chaser) || class.is_a(C::AlternateChaser) || class == C::PathChaser;
     use ClassFamily as Family;
@@ -279,7 +279,7 @@ pub(crate) fn makes(class: SpriteClass, traits: &Traits) -> Vec<SpriteType> {
     let producer = class.is_a(C::SpawnPoint) || matches!(class, C::Spreader | C::SpawnPointMultiSprite);
     let shoots = class.is_a(C::ShootAvatar) || matches!(class, C::FlakAvatar | C::WizardAvatar);
     let made: &[SpriteType] = if producer || shoots { &traits.stypes } else { &[] };
-    // The sprites left behind are walls unless the sprite type specifies something else.
+    // The sprites left behind are walls unless the sprite type specifies a different type.
     let behind = traits.spawn_behind.or((class == C::OngoingTurningAvatar).then_some(SpriteType(0)));
     made.iter().copied().chain(behind).filter(|&stype| stype != SpriteType::NONE).collect()
 }

@@ -17,7 +17,7 @@ pub(crate) struct Marks {
     pub(crate) holds_up: bool,
     /// `true` if the type blocks a moving hostile type.
     pub(crate) holds_up_enemies: bool,
-    /// `true` if a shot by the avatar, or something harmful, always removes the type.
+    /// `true` if an avatar's shot, or something harmful, always removes the type.
     pub(crate) breakable: bool,
     /// `true` if a moving sprite's collision with the type creates a forbidden type.
     pub(crate) spoilt: bool,
@@ -115,8 +115,8 @@ pub(crate) fn marks(
     marks
 }
 
-/// Returns, for each type, whether `holds` is true for the type or a relative, so that a rule on the type can
-/// refer to it.
+/// Returns, for each type, whether `holds` is true for the type or for any relative to which rules on the
+/// type apply.
 fn by_family(rules: &Rules, holds: impl Fn(SpriteType) -> bool) -> Vec<bool> {
     let own: Vec<bool> = (0..rules.types.len()).map(|at| holds(SpriteType(at as u16))).collect();
     rules.types.iter().map(|info| info.tree.iter().any(|stype| own[stype.index()])).collect()

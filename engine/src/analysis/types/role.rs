@@ -26,7 +26,7 @@ pub enum Role {
     /// creates the winning sprite. Unlocked items that count towards a win are [`Role::Collectable`].
     Exit,
     /// A motionless type that blocks or harms the avatar until the avatar holds something, does something or
-    /// changes its type.
+    /// changes type.
     Gate,
     /// A type, such as a falling rock, that moves on its own, blocks the avatar, and kills only when it moves
     /// in certain ways.
@@ -42,7 +42,7 @@ pub enum Role {
     Hazard,
     /// A motionless type that creates other sprites by itself.
     Spawner,
-    /// A type whose loss loses the game, or from which moving sprites must be kept away.
+    /// A type whose disappearance loses the game, or from which moving sprites must be kept away.
     Ward,
     /// A type that must be removed for a win: by a shot, by other sprites, or by the avatar's touch while the
     /// sprite moves.
@@ -181,8 +181,8 @@ impl Analysis {
             || self.touches.iter().any(creates)
     }
 
-    /// Returns `true` if pushing a sprite onto the type has an effect that a win requires, that fills the
-    /// type, or that opens something. Also returns `true` if such a type neither harms nor blocks the avatar.
+    /// Returns `true` if pushing a sprite onto the type contributes to a win, fills the type, or opens a
+    /// different type. For a type that neither harms nor blocks the avatar, any effect of the push suffices.
     fn is_socket(&self, stype: SpriteType, harm: Harm) -> bool {
         self.pushables.iter().any(|pushable| {
             let Some(sink) = pushable.sinks.iter().find(|sink| sink.partner == stype) else { return false };

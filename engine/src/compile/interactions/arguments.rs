@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
         self.problems.push(missing_name(&format!("`{}`", effect.text), effect.span, key, thing));
     }
 
-    /// Reports a problem at which the reference stops reading.
+    /// Reports a problem at which the reference stops reading the file.
     pub(super) fn fail(&mut self, problem: Diagnostic) {
         self.failed = true;
         self.problems.push(problem);
@@ -133,7 +133,7 @@ impl Arguments for Reader<'_> {
     fn score(&mut self, key: &'static str) -> i32 {
         let Some((param, value)) = self.value(key) else { return 0 };
         let Value::Text(text) = value else {
-            // The value names a constant, which the reference drops.
+            // The reference drops a value that names a constant.
             self.problems.push(wrong_type(param, Expected::Int));
             return 0;
         };

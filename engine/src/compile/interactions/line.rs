@@ -42,7 +42,7 @@ pub(in crate::compile) struct Reader<'a> {
     pub(super) score_faults: [bool; 2],
     /// The index, among the timed effects, of the effect that this line schedules.
     pub(super) timed: u16,
-    /// The effect that addTimer schedules, and its keyword's index.
+    /// The effect that addTimer schedules, and the index of the effect's keyword.
     pub(super) planned: Option<(EffectInfo, u16)>,
 }
 
@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
         amounts.any(|amount| *amount != Some(0)).then(|| Box::new(counting))
     }
 
-    /// Returns the timing of a line with TIME. The caller fills in the effect, the target and the score.
+    /// Returns the timing of a line with TIME. The caller sets the effect, the target and the score.
     pub(super) fn clock(&mut self) -> Timed {
         let timer = self.int("timer", -1);
         let repeating = self.flag("repeating", false);

@@ -29,7 +29,7 @@ impl Program {
         let pairs = self.passes.iter().map(|pass| (pass.first, pass.effect));
         let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));
         let executed = pairs.chain(self.edge.iter().copied()).chain(timed);
-        // An edge pass of an undeclared type stops the game before any effect.
+        // An edge pass of an undeclared type stops the game before any effect runs.
         let given = executed.filter_map(|(one, effect)| {
             let summary = &self.effects.get(usize::from(effect))?.summary;
             let info = types.get(summary.gives_speed(one)?.index())?;
@@ -41,9 +41,9 @@ impl Program {
             .collect()
     }
 
-    /// Returns the effects whose score depends on an earlier execution. Their own execution may leave the
-    /// remembered flags unchanged, because the collected sprite is not a resource, or because there is no
-    /// partner at the edge.
+    /// Returns the effects whose score depends on an earlier execution. These effects may leave their memory
+    /// ([`memory`](crate::rules::memory)) unchanged, because the collected sprite is not a resource, or
+    /// because there is no partner at the edge.
     pub(super) fn remembering(&self, types: &[TypeInfo]) -> Vec<u16> {
         let collects = |index: u16| self.effects[usize::from(index)].summary.collects();
         let other = |&stype: &SpriteType| {
@@ -176,8 +176,8 @@ pub(super) enum Partner {
     Unknown,
 }
 
-/// Returns `Some` if the line is timed: `sprite TIME` or `TIME sprite` (`spec/03` §6). The value contains the
-/// line's target, if any.
+/// Returns the target, if any, of a timed line, which is `sprite TIME` or `TIME sprite` (`spec/03` §6). The
+/// outer option is `None` if the line is not timed.
 fn by_the_clock(
     line: &InteractionLine,
     first: Partner,

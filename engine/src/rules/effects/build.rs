@@ -15,12 +15,12 @@ pub(crate) trait Arguments {
     /// Returns a required sprite type that must be declared.
     fn sprite(&mut self, key: &'static str) -> SpriteType;
     /// Returns a required sprite type. For an undeclared name, returns [`SpriteType::NONE`], which stops the
-    /// game only when it is used.
+    /// game only if it is used.
     fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
     /// Returns an optional sprite type.
     fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
-    /// Returns a type that is given by its registry index, which the reference accepts for some optional
-    /// types.
+    /// Returns an optional type that is specified by its registry index. The reference accepts an index for
+    /// some types.
     fn numbered(&mut self, key: &'static str) -> Option<SpriteType>;
     fn sprites(&mut self, key: &'static str) -> Vec<SpriteType>;
     /// Returns the keyword index of another effect.
@@ -34,7 +34,7 @@ pub(crate) trait Arguments {
 /// The reference's handling of an undeclared name (`spec/03` §2.2). In strict mode, such a name is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undeclared {
-    /// The reference drops the effect and does not read the rest of the file.
+    /// The reference drops the effect and ignores the rest of the file.
     Fails,
     /// The name counts as absent.
     Absent,

@@ -85,7 +85,7 @@ pub enum EffectSummary {
     },
 }
 
-/// The sprites in a level that an effect changes.
+/// The sprites that an effect changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
     /// The sprite on the given side.
@@ -117,7 +117,7 @@ pub(crate) enum Movement<'a> {
     Back,
     /// Every sprite moves back, except sprites of these types.
     AllBack(&'a [SpriteType]),
-    /// The first sprite moves along with the second sprite, or elsewhere.
+    /// The first sprite moves along with the second sprite, or to another position.
     Away,
 }
 
@@ -187,12 +187,12 @@ impl EffectSummary {
         self.properties().makes
     }
 
-    /// Returns `true` if sprites of this type must exist or be held for the effect to happen.
+    /// Returns `true` if sprites of the given type must exist or be held for the effect to happen.
     pub(crate) fn names(&self, stype: SpriteType) -> bool {
         self.properties().names == Some(stype)
     }
 
-    /// Returns the type whose sprites are all affected, if the effect does not need a particular sprite.
+    /// Returns the type whose sprites are all affected, if the effect does not run on a particular sprite.
     pub(crate) fn at_large(&self) -> Option<SpriteType> {
         match self.properties().target? {
             Target::All(of) | Target::Tree(of) => Some(of),

@@ -1,5 +1,5 @@
-//! Effect parameters, which are recorded from the calls that [`build`] itself makes, so that no second table
-//! needs to be maintained.
+//! Effect parameters. They are recorded from the calls that [`build`] makes, so that no second table needs to
+//! be maintained.
 
 use super::EffectFamily;
 use super::build::{Arguments, Undeclared, build};
@@ -38,12 +38,12 @@ pub fn effect_parameters(keyword: &str) -> Vec<(&'static str, ParameterKind)> {
     recorder.asked
 }
 
-/// Records the requested parameters, and returns default values.
+/// Arguments that record the requested parameters and return default values.
 #[derive(Default)]
 pub(super) struct Recorder {
     asked: Vec<(&'static str, ParameterKind)>,
-    /// `true` to return values other than the defaults: `true` flags, negative numbers, and types that may be
-    /// absent.
+    /// `true` to return values other than the defaults: flags that are `true`, negative numbers, and optional
+    /// types.
     contrary: bool,
 }
 

@@ -1,5 +1,5 @@
 //! The effects table: one row per effect, with a summary of the possible consequences of an execution. A row
-//! contains only what differs from [`Summary::of`], the summary of an effect that does nothing.
+//! contains only the differences from [`Summary::of`], the summary of an effect that does nothing.
 
 use super::effect_summary::{EffectSummary, Side};
 use super::summary::*;
@@ -412,7 +412,7 @@ impl Effect {
     }
 }
 
-/// Returns a list with an effect and, if `flag` is set, a second one.
+/// Returns a list with one effect and, if `flag` is set, a second effect.
 fn with(effect: EffectSummary, flag: bool, more: EffectSummary) -> SmallVec<[EffectSummary; 2]> {
     std::iter::once(effect).chain(flag.then_some(more)).collect()
 }

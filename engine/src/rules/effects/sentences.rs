@@ -1,11 +1,11 @@
-//! The sentence for each effect: a template with named placeholders, and their values.
+//! The sentence for each effect: a template with named placeholders, and the placeholders' values.
 //!
 //! `engine::describe` fills the placeholders, and lists the templates for programs that parse the sentences.
 //!
 //! The placeholders `{one}` and `{two}` are the colliding sprites. `{one:die|disappears}` is a word that
 //! agrees with a sprite: the first form is for the player, and the second for any other sprite. `{both:…|…}`
-//! agrees with either sprite. `{every}` stands for the sprites on which a timed effect runs. All other
-//! placeholders have values of their own.
+//! agrees with either sprite. `{every}` stands for the sprites on which a timed effect runs. Every other
+//! placeholder has its own value.
 
 use super::parameters::Recorder;
 use super::{Effect, SpawnIf, SpawnIfCounterSubTypes, SpeedChange, Summary, TransformIfCount, build};
@@ -21,8 +21,8 @@ pub(crate) struct Sentence {
     /// The template for a timed effect. The placeholder `{alone}` in [`Sentence::meeting`] stands for this
     /// template.
     pub(crate) alone: &'static str,
-    /// The words that introduce the points, if the condition for awarding them differs from that in the
-    /// sentence.
+    /// The words that introduce the points, if they are awarded under a different condition than the one in
+    /// the sentence.
     pub(crate) if_scored: &'static str,
     values: SmallVec<[(&'static str, Value); 3]>,
 }
@@ -60,7 +60,7 @@ pub(crate) enum Value {
     /// A probability, which is omitted if it is 1.
     Chance(f64),
     Text(String),
-    /// A part with placeholders of its own, included if `present` is `true`.
+    /// A part with its own placeholders, which is included if `present` is `true`.
     Part {
         text: &'static str,
         present: bool,
@@ -109,8 +109,7 @@ impl Sentence {
         self.scored("in any case, ")
     }
 
-    /// Awards the points on every contact, and says so in the text if the effect itself happens only with a
-    /// certain probability.
+    /// Awards the points on every contact. The text says so if the effect itself is random.
     fn scored_if(self, prob: f64) -> Sentence {
         if prob < 1.0 { self.scored_always() } else { self }
     }
@@ -154,7 +153,7 @@ impl Sentence {
     }
 }
 
-/// Returns the effects for all keywords, each with two sets of parameters.
+/// Returns the effect for every keyword, with each of two sets of parameters.
 fn recorded() -> impl Iterator<Item = Effect> {
     let effect = |(contrary, keyword): (bool, &&str)| {
         build(keyword, &mut Recorder::contrary(contrary)).expect("every keyword builds an effect")

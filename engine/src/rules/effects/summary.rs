@@ -65,7 +65,7 @@ pub(crate) struct Summary {
     pub(crate) precondition: Precondition,
     /// `true` if the effect does nothing at the edge or when timed, because there is no partner.
     pub(crate) needs_partner: bool,
-    /// The joint execution on all partners of a sprite, if the effect has a batch form.
+    /// The batch form of the effect, if any, which runs once on a sprite and all its partners.
     pub(crate) batch: Option<Batch>,
     /// The random draws that affect the result.
     pub(crate) draws: Draws,
@@ -83,7 +83,7 @@ pub(crate) struct Summary {
     pub(crate) spot: Option<Spot>,
     /// `true` if a transformed sprite keeps its orientation, regardless of the two types.
     pub(crate) forces_orientation: bool,
-    /// `true` if the transformed first sprite faces in the opposite direction to the partner.
+    /// `true` if the transformed first sprite faces in the direction opposite to the partner's.
     pub(crate) takes_orientation: bool,
     /// The resource that a collision gives.
     pub(crate) gives: Option<Gives>,
@@ -93,7 +93,7 @@ pub(crate) struct Summary {
     pub(crate) counts: Option<SpriteType>,
     /// The spawn points that create a different type after the effect.
     pub(crate) redirects: Option<Redirection>,
-    /// The partner type and the keyword index against which the first sprite's type is shielded.
+    /// The partner type and the effect keyword's index against which the first sprite's type is shielded.
     pub(crate) shield: Option<(SpriteType, u16)>,
     /// The scheduled timed effect.
     pub(crate) schedules: Option<u16>,
@@ -117,7 +117,7 @@ pub(crate) enum Batch {
     Reverse,
 }
 
-/// The sprites that an effect may move, which determine how a pass may search for hits.
+/// The sprites that an effect may move. They determine how a pass may search for overlapping sprites.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moves {
     Nothing,
@@ -125,7 +125,7 @@ pub(crate) enum Moves {
     Anything,
 }
 
-/// The random draws of an execution.
+/// The random draws that an execution makes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Draws {
     Nothing,
@@ -135,7 +135,7 @@ pub(crate) enum Draws {
     Chance(f64),
     /// Decides with this probability whether something happens, if both sprites are oriented.
     ChanceIfOriented(f64),
-    /// Draws one of the given number of types.
+    /// Draws one of several types. The value is the number of types.
     OneOf(usize),
     /// Draws one of the sprites to which the partner leads.
     Exit,
@@ -199,7 +199,7 @@ pub(crate) enum SpeedChange {
     Set,
 }
 
-/// The effect on speeds.
+/// An effect on the speed of sprites.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpeedEffect {
     /// The speeds of a type and its relatives change.
@@ -239,7 +239,7 @@ pub(crate) struct Redirection {
     pub(crate) to: SpriteType,
 }
 
-/// The orientations of non-oriented sprites that an execution can depend on.
+/// The sprites whose orientation an execution can depend on, although they are not oriented.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum OrientationRead {
     Either,
@@ -263,7 +263,7 @@ pub(crate) enum PutBack {
     FlushWithPartner,
 }
 
-/// The part of a summary that a tick reads at every execution.
+/// The part of a summary that a tick reads for each execution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TickSummary {
     pub(crate) affects_distant_sprites: bool,
@@ -352,7 +352,7 @@ impl Summary {
     }
 
     /// Returns the type whose sprites can gain speed from a standstill when the effect runs on sprites of
-    /// `one`. Forces act only in continuous physics.
+    /// `one`. Forces act only on sprites with continuous physics.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),

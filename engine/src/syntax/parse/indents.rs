@@ -28,7 +28,7 @@ pub(crate) fn of_siblings(lines: &[&Line<'_>]) -> usize {
 }
 
 /// Returns the problem, with a repair that indents the first line by `columns` and shifts the other lines by
-/// the same amount.
+/// the same distance.
 fn shifted(problem: Diagnostic, lines: &[&Line<'_>], columns: usize) -> Diagnostic {
     let first = lines.first().map_or(0, |line| line.indent);
     let moved = |line: &&Line<'_>| line.indented((line.indent + columns).saturating_sub(first));
@@ -49,7 +49,8 @@ pub(crate) fn outside(section: Section, head: usize, lines: &[&Line<'_>], proble
     }
 }
 
-/// Reports lines that are not indented like most lines of their section. The section must not have subtypes.
+/// Reports lines that are not indented like most lines of their section. The section must not be the
+/// SpriteSet, whose lines can be nested.
 pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) {
     let inside = lines.iter().map(|line| line.indent).filter(|&indent| indent > head);
     let indent = usual(inside);
@@ -63,8 +64,8 @@ pub(crate) fn uneven(section: Section, head: usize, lines: &[&Line<'_>], problem
 }
 
 /// Reports SpriteSet lines whose indent lies between the columns of the other lines, which makes them
-/// children or siblings by accident. Returns `true` if the lines' indentation is aligned to columns. If it is
-/// not, reports nothing.
+/// children or siblings by accident. Returns `true` if the lines' indentation is aligned to columns.
+/// Otherwise, reports nothing.
 pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diagnostic>) -> bool {
     let indents = || std::iter::once(head).chain(lines.iter().map(|line| line.indent));
     let above: Vec<usize> = indents().map(|indent| indent - head).collect();
@@ -81,7 +82,7 @@ pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     };
     let count =
         |step: usize| lines.iter().enumerate().filter(|(at, line)| off(step, *at, line).is_some()).count();
-    // Find the widest columns that nearly all lines follow.
+    // Find the largest column width with which nearly all lines are aligned.
     let Some(step) = steps.into_iter().rev().find(|&step| count(step) * 4 <= lines.len()) else {
         return false;
     };

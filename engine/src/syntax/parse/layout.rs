@@ -30,7 +30,7 @@ impl Line<'_> {
         Span::new(self.span.start - self.indent, self.span.start)
     }
 
-    /// Returns an edit that indents the line by this number of columns.
+    /// Returns an edit that indents the line by the given number of columns.
     pub(crate) fn indented(&self, columns: usize) -> Edit {
         Edit::new(self.indentation(), " ".repeat(columns))
     }
@@ -78,7 +78,7 @@ pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
 }
 
 /// Finds a line that consists only of `#` characters and starts in the first column. The reference crashes on
-/// this (`spec/01` §1.1).
+/// such a line (`spec/01` §1.1).
 pub(crate) fn bare_hashes(source: &str) -> Option<Span> {
     let mut start = 0;
     source.split(['\n', '\r']).find_map(|raw| {

@@ -70,8 +70,8 @@ impl Reader {
             if let Some(name) = fixed.as_deref().and_then(|fixed| fixed.split_whitespace().next()) {
                 sprite.name.text = name.trim_end_matches('>').to_owned();
             }
-            // One of the words was meant as the arrow, or contains it. Of the other words, only a class is
-            // certain.
+            // One of the words was meant as the arrow, or contains it. Among the other words, only a class
+            // can be identified for certain.
             let known = |word: &Word| CLASSES.contains(&&*word.text);
             sprite.class = sprite.class.into_iter().chain(strays.drain(..)).find(known);
         }
@@ -83,7 +83,7 @@ impl Reader {
     }
 
     /// Reports a line whose arrow is missing or misspelt, at the faulty word if there is one. Returns the
-    /// text to write there. `place` describes where the arrow belongs.
+    /// text to write instead. `place` describes where the arrow belongs.
     fn mend_arrow(&mut self, line: &Line<'_>, has_arrow: bool, shape: &str, place: &str) -> Option<String> {
         let mut words = line.text.split([' ', '\t']).filter(|word| !word.is_empty());
         let meant = words.find_map(|word| Some((word, repair::arrow(word)?))).filter(|_| !has_arrow);
@@ -151,7 +151,7 @@ impl Reader {
             let shown = if before.is_empty() { Span::new(place.start, start(arrow) + 1) } else { place };
             let problem = Diagnostic::error("bad-mapping", shown, format!("{message}: {shape}"));
             let problem = problem.help(in_levels_too(symbol, rest));
-            // A line that lacks its character may begin with the space that followed it.
+            // A line that lacks its character may begin with the space that followed the character.
             self.problems.push(if before.is_empty() && line.indent % 2 == 1 {
                 problem
             } else {

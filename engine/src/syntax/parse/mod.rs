@@ -208,7 +208,7 @@ impl Reader {
         }
     }
 
-    /// Reports a misplaced word. `rule` states what belongs there.
+    /// Reports a misplaced word. `rule` states what belongs in its place.
     pub(super) fn stray_word(&mut self, word: &Word, rule: &str) {
         let message = format!("`{}` does not belong here: {rule}", word.text);
         let problem = Diagnostic::error("stray-word", word.span, message);

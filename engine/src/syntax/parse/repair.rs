@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 pub(crate) fn parameter(word: &str) -> Option<String> {
     let (key, value) = match word.split_once([':', ';', '-', '+', '~', '>', '<', '_']) {
         Some((key, value)) if is_value(value) => {
-            // `scoreChange-1` only lacks its `=`.
+            // `scoreChange-1` lacks only its `=`.
             let number = |text: &str| text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
             let signed = word.as_bytes()[key.len()] == b'-' && number(value) && value != "0";
             (key, if signed { &word[key.len()..] } else { value })
@@ -55,8 +55,8 @@ fn named(word: &str) -> Option<usize> {
     KEYS.into_iter().find(|key| word.starts_with(key) && word.len() > key.len()).map(str::len)
 }
 
-/// Returns the text to write instead of a word that stands for an arrow or that contains one with too few
-/// spaces around it.
+/// Returns the text to write instead of a word that stands for an arrow, or that contains an arrow with too
+/// few spaces around it.
 pub(crate) fn arrow(word: &str) -> Option<String> {
     const LIKE_ARROWS: [&str; 14] =
         ["<", "->", "-->", "=>", ">>", "<-", "-", "~", ":", "|", "=", "→", "»", "›"];

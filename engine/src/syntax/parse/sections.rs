@@ -26,8 +26,8 @@ pub(crate) fn named(text: &str) -> Option<Section> {
     all.find(|section| section.name().eq_ignore_ascii_case(text))
 }
 
-/// Returns a file's sections as they were intended. If a section's name is wrong, the lines below it decide
-/// which section it is.
+/// Returns a file's sections as they were intended. If a section's name is wrong, the lines below it
+/// determine the section.
 pub(crate) fn mended<'a, 'b>(
     header: &'b Line<'a>,
     lines: &'b [Line<'a>],
@@ -99,7 +99,7 @@ fn swapped(guess: &Guess<'_>, parts: &mut [Part<'_, '_>], problems: &mut Vec<Dia
     }
 }
 
-/// Reports sections without a name. Their lines look like those of a missing section, and stand at the end of
+/// Reports sections without a name. Their lines look like those of a missing section, and are at the end of
 /// another section or before all sections.
 fn missing<'a, 'b>(
     guess: &Guess<'_>,
@@ -259,9 +259,9 @@ fn line_of(section: Section) -> &'static str {
     }
 }
 
-/// Recognises sections by their lines.
+/// The data for recognising sections by their lines.
 struct Guess<'a> {
-    /// The names of the sprites, as far as the lines reveal them.
+    /// The names of the sprites, as far as they can be inferred from the lines.
     sprites: Vec<&'a str>,
 }
 

@@ -45,7 +45,7 @@ impl Reader {
     }
 
     /// Reports a word with an `=` that is not `key=value`: the `=` may have spaces around it, the key or
-    /// value may be missing, or there may be several `=`. The intended parameter is read, so that the mistake
+    /// value may be missing, or there may be several `=`. Reads the intended parameter, so that the mistake
     /// yields only one problem.
     fn broken_param<'a>(
         &mut self,

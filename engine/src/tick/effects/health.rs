@@ -30,7 +30,7 @@ pub(super) fn add(
 }
 
 /// Executes subtractHealthPoints. If `stype` is given, the effect acts on the first sprite of the last
-/// non-empty group in that type's tree. An execution that kills has a separate score.
+/// non-empty group in that type's tree. An execution that kills a sprite has a separate score.
 pub(super) fn subtract(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,

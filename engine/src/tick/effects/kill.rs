@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::{NONE, Slot, flag};
 
-/// Kills the sprite if `hit` is `true`. The score applies only in that case.
+/// Kills the sprite if `hit` is `true`. Only then does the score change.
 pub(super) fn when(step: &mut Step<'_, impl Scheduler>, index: u16, one: Slot, hit: bool) {
     step.apply_score(index, hit);
     if hit {
@@ -30,7 +30,7 @@ pub(super) fn if_from_above(step: &mut Step<'_, impl Scheduler>, index: u16, one
     when(step, index, one, above && falling);
 }
 
-/// Executes killIfFrontal and killIfNotFrontal, both of which kill a motionless sprite.
+/// Executes killIfFrontal and killIfNotFrontal, which both kill a sprite that does not move.
 pub(super) fn if_frontal(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -72,7 +72,8 @@ pub(super) fn if_not_upright(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     }
 }
 
-/// Sets a score to 0: the sprite's score if the sprite is the avatar, or the scores of all avatars of a type.
+/// Sets scores to 0: either the sprite's own score if the sprite is the avatar, or the scores of all avatars
+/// of a type.
 pub(super) fn remove_score(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
@@ -86,7 +87,7 @@ pub(super) fn remove_score(
     while slot != NONE {
         step.work(1);
         if step.world.sprite(slot).is(flag::AVATAR) {
-            // Each avatar has its own score, and the score of the player's avatar is the game's.
+            // Each avatar has its own score, and that of the player's avatar is the game's score.
             if slot == step.world.avatar() {
                 step.world.reset_score();
             }

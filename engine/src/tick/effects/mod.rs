@@ -129,7 +129,8 @@ pub(crate) fn execute(
     }
 }
 
-/// Executes a batch effect on a sprite and all its partners. Returns how many times the execution counts.
+/// Executes a batch effect on a sprite and all its partners. Returns the number of executions that the batch
+/// counts as.
 pub(crate) fn execute_batch(
     step: &mut Step<'_, impl Scheduler>,
     info: &EffectInfo,
@@ -210,7 +211,7 @@ pub(crate) fn execute_alone(step: &mut Step<'_, impl Scheduler>, index: u16, eff
     }
 }
 
-/// Makes an effect's random draws without its consequences, so that the random stream does not shift.
+/// Makes an effect's random draws without its consequences, so that later draws stay the same.
 #[cold]
 fn draw_only(step: &mut Step<'_, impl Scheduler>, summary: &Summary, one: Slot, two: Option<Slot>) {
     if summary.needs_partner && two.is_none() {
@@ -241,7 +242,8 @@ fn add_timer(step: &mut Step<'_, impl Scheduler>, timed: u16) {
     step.plan(Timer { due, timed });
 }
 
-/// Returns an execution's score change, and `true` if the text of the score change is not a number.
+/// Returns an execution's score change, and a flag that is `true` if the text of the score change is not a
+/// number.
 pub(crate) fn score_change(info: &EffectInfo, remembered: u8) -> (i32, bool) {
     if remembered & memory::KILLED != 0 {
         (info.summary.score_if_killed, info.score_faults[1])

@@ -16,8 +16,8 @@ pub(super) fn step_back(step: &mut Step<'_, impl Scheduler>, one: Slot, flush_wi
     step.place(one, rect);
 }
 
-/// Returns the rectangle flush with the partner on the side from which the sprite came, or the sprite's last
-/// rectangle if the sprite did not move in exactly one of the four directions.
+/// Returns the rectangle flush with the partner, on the side from which the sprite came. Returns the sprite's
+/// last rectangle if the sprite did not move in exactly one of the four directions.
 pub(super) fn pixel_perfect(step: &Step<'_, impl Scheduler>, one: Slot, two: Slot) -> Rect {
     let (sprite, other) = (step.world.sprite(one), step.world.sprite(two).rect);
     let last = step.world.last(one);
@@ -55,7 +55,7 @@ pub(super) fn undo_all(step: &mut Step<'_, impl Scheduler>, spare: &[SpriteType]
     }
 }
 
-/// Moves the sprite back, then two steps down, and reverses its direction.
+/// Moves the sprite back and then two steps down, and reverses its direction.
 pub(super) fn turn_around(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     let last = step.world.last(one);
     let cooldown = step.rules.types[step.world.sprite(one).stype.index()].traits.cooldown;
@@ -140,8 +140,8 @@ pub(super) fn draw_gaze(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slo
     }
 }
 
-/// Pushes the sprite. The sprite moves in the direction of the partner's move in this tick, and turns in that
-/// direction.
+/// Pushes the sprite. The sprite moves in the direction of the partner's move in this tick, and turns to face
+/// that direction.
 pub(super) fn bounce_forward(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let moved = step.last_direction(two);
     let &Overrides { orientation: facing, speed, .. } = step.world.overrides(two);
@@ -180,7 +180,8 @@ pub(super) fn pull_with_it(
     }
 }
 
-/// Moves the sprite to a random sprite of the partner's exit type. Kills the sprite if there is no exit.
+/// Moves the sprite to a random exit, which is a sprite of the partner's exit type. Kills the sprite if there
+/// is no exit.
 pub(super) fn teleport(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let Some(exit_type) = exit_of(step, two) else { return step.message() };
     let count = step.world.group(exit_type).count;
@@ -210,7 +211,7 @@ pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
 fn exit_of(step: &Step<'_, impl Scheduler>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));
-    // A spawner leads to the type that it creates, which may change.
+    // A spawner leads to the type that it currently creates.
     let leads_to = if spawns { Some(step.world.overrides(two).spawns) } else { info.leads_to() };
     leads_to.filter(|&stype| stype != SpriteType::NONE)
 }

@@ -5,7 +5,7 @@ use crate::rules::{Limit, SpriteType};
 use crate::tick::{Scheduler, Step};
 use crate::world::Slot;
 
-/// Returns a resource sprite's type, value and limit, or `None` if it is not a resource.
+/// Returns a resource sprite's type, value and limit, or `None` if the sprite is not a resource.
 fn resource_of(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Option<(SpriteType, i32, i32)> {
     let info = &step.rules.types[step.world.sprite(slot).stype.index()];
     let resource = info.traits.resource;

@@ -73,7 +73,7 @@ pub(super) fn clone(step: &mut Step<'_, impl Scheduler>, one: Slot) {
     step.add(sprite.stype, sprite.rect.x, sprite.rect.y);
 }
 
-/// Spawns one of two types, depending on the numbers of sprites and of subtypes that a third type has.
+/// Spawns a sprite of one of two types, depending on a third type's numbers of sprites and subtypes.
 pub(super) fn if_counter_subtypes(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -96,8 +96,8 @@ pub(super) fn if_counter_subtypes(
     step.add(if met { stype } else { otherwise }, rect.x, rect.y);
 }
 
-/// Sets the type created by the spawn points of a type and its relatives. Spawn points that draw from a list
-/// replace the partner's type in the list.
+/// Sets the type that spawn points of a type and its relatives create. For spawn points that draw from a
+/// list, replaces the partner's type in the list.
 pub(super) fn update_type(
     step: &mut Step<'_, impl Scheduler>,
     partner: Option<Slot>,

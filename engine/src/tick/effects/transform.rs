@@ -67,7 +67,7 @@ pub(super) fn random_child(
     }
 }
 
-/// Transforms the sprite depending on the number of a type's sprites, including killed and disabled ones.
+/// Transforms the sprite depending on a type's number of sprites, including killed and disabled sprites.
 pub(super) fn if_count(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -132,7 +132,7 @@ fn inherit(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     pass_on(step, old, new);
 }
 
-/// Passes the old sprite's properties on to the new sprite, and removes the old sprite.
+/// Passes on the old sprite's properties to the new sprite, and removes the old sprite.
 fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: Option<Slot>, force: bool) {
     let (before, after) = (*step.world.overrides(old), *step.world.overrides(new));
     let oriented = step.world.sprite(new).is(flag::ORIENTED) && step.world.sprite(old).is(flag::ORIENTED);
@@ -148,7 +148,7 @@ fn hand_over(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot, victim: 
     }
 }
 
-/// Passes on the last rectangle, the resources and the player's control, then removes the old sprite.
+/// Passes on the last rectangle, the resources and the player's control, and then removes the old sprite.
 fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
     let before = *step.world.sprite(old);
     step.set_last(new, step.world.last(old));
@@ -158,8 +158,8 @@ fn pass_on(step: &mut Step<'_, impl Scheduler>, old: Slot, new: Slot) {
             step.add_amount(new, resource, amount);
         }
     }
-    // The player takes over the new sprite if it can be an avatar. If it cannot, the old avatar stays,
-    // disabled.
+    // The player takes over the new sprite if it can be an avatar. Otherwise, the old avatar stays on the
+    // board, disabled.
     let player_lost = before.is(flag::AVATAR) && !step.can_be_played(new);
     if before.is(flag::AVATAR) && !player_lost {
         if step.world.avatar() == NONE {

@@ -13,8 +13,8 @@ fn velocity(step: &Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     Direction { x: orientation.x * speed, y: orientation.y * speed }
 }
 
-/// Returns two flags for a collision with a rectangle. The first is set for a collision from the side, and
-/// the second for a collision from above or below. Both or neither may be set.
+/// Returns two flags for a collision with a rectangle. The first is `true` for a collision from the side, and
+/// the second for a collision from above or below. Both or neither may be `true`.
 fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, bool) {
     let rect = step.world.sprite(one).rect;
     let overlap = |a: i32, a_size: i32, b: i32, b_size: i32| {
@@ -41,8 +41,8 @@ fn collision(step: &Step<'_, impl Scheduler>, one: Slot, other: Rect) -> (bool, 
     (across < along, along < across)
 }
 
-/// Returns the rectangle to collide with, and the number of partners in it. The rectangle covers two aligned
-/// partners if there are any, and the closest partner otherwise.
+/// Returns the number of partners to collide with, and the rectangle that they cover. The rectangle covers
+/// two aligned partners if there are any, and the closest partner otherwise.
 fn joined(step: &Step<'_, impl Scheduler>, one: Slot, partners: &mut Partners) -> (i32, Rect) {
     let rect = |slot: Slot| step.world.sprite(slot).rect;
     if let [first, second] = partners[..] {
@@ -133,7 +133,7 @@ pub(super) fn reverse(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot)
     separate(step, one, &[two]);
 }
 
-/// Places the sprite flush with the wall, and lets it continue along the wall.
+/// Places the sprite flush with the wall, and lets the sprite continue along the wall.
 pub(super) fn stop(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     let rect = pixel_perfect(step, one, two);
     step.place(one, rect);
@@ -144,8 +144,8 @@ pub(super) fn stop(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot) {
     slow(step, one, rest);
 }
 
-/// Bounces the sprite off a paddle. The further the sprite is from the paddle's middle, the steeper it
-/// bounces.
+/// Bounces the sprite off a paddle. The further the sprite is to one side of the paddle's centre, the more it
+/// bounces to that side.
 pub(super) fn bounce_direction(step: &mut Step<'_, impl Scheduler>, one: Slot, two: Slot, most: f64) {
     let (ball, paddle) = (*step.world.sprite(one), step.world.sprite(two).rect);
     let (velocity, last) = (velocity(step, one), step.world.last(one));

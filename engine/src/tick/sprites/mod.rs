@@ -58,7 +58,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: Spr
     }
 }
 
-/// Performs the default update: passive movement, then the time to live.
+/// Performs the default update: passive movement, followed by a check of the time to live.
 #[inline]
 pub(crate) fn base(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);

@@ -70,7 +70,7 @@ fn pursue(step: &mut Step<'_, impl Scheduler>, slot: Slot, class: SpriteClass) -
     }
 }
 
-/// Returns a random direction, to be used for `cons` more updates.
+/// Returns a random direction. After each draw, the next `cons` updates return the same direction.
 fn random_move(step: &mut Step<'_, impl Scheduler>, slot: Slot, cons: i32) -> Direction {
     towards(random_heading(step, slot, cons))
 }
@@ -113,12 +113,13 @@ fn drawn(step: &mut Step<'_, impl Scheduler>, options: &[u8]) -> Option<Directio
     Some(Direction::BASE[usize::from(options[drawn])])
 }
 
-/// Chooses the direction of a Chaser or Fleeing: a step towards (or away from) one of the closest targets.
+/// Chooses the direction of a Chaser (or Fleeing): a step towards (or away from) one of the closest targets.
 fn chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     chase_visible(step, slot, |_, _| true)
 }
 
-/// Chooses the direction of a LOSChaser, which sees only along the last drawn direction, even through walls.
+/// Chooses the direction of a LOSChaser, which sees only in the direction that it drew last, even through
+/// walls.
 fn los_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction {
     let ahead = heading(step, slot);
     chase_visible(step, slot, |own, target| match ahead {
@@ -144,7 +145,7 @@ fn chase_visible(
     drawn(step, &options).unwrap_or_else(|| random_move(step, slot, traits.cons))
 }
 
-/// Returns the directions to choose from for the closest targets, if they are close enough.
+/// Returns the directions to choose from, given the closest targets, if those are close enough.
 #[inline(always)]
 fn options(
     continuous: bool,
@@ -168,8 +169,8 @@ fn options(
 fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &mut Options) {
     let is_near = [own.x, own.y, target.x, target.y].iter().all(|at| at.unsigned_abs() < 1 << 30);
     if !continuous && is_near {
-        // With grid physics, the distance shrinks by one if there is a gap in that direction, and grows by
-        // one if not.
+        // With grid physics, the distance shrinks by one if there is a gap in that direction, and otherwise
+        // grows by one.
         let (right, below) = (target.x - own.x, target.y - own.y);
         let gaps = [-below, -right, below, right];
         for (direction, gap) in (0..).zip(gaps) {
@@ -189,7 +190,7 @@ fn add_options(continuous: bool, flee: bool, own: Rect, target: Rect, options: &
     }
 }
 
-/// A sprite's targets: the sprites of one type, followed by the sprites of other types.
+/// A sprite's targets: the sprites of one type, followed by those of other types.
 #[derive(Clone, Copy)]
 struct Targets<'a> {
     first: Option<SpriteType>,
@@ -310,7 +311,7 @@ fn alternate_targets<'a>(step: &mut Step<'a, impl Scheduler>, slot: Slot) -> Tar
     if total == 0 {
         return Targets::NONE;
     }
-    // To choose among several types, the reference uses a separate, unseeded generator.
+    // The reference chooses among several types with a separate, unseeded generator.
     let chosen = match stypes.len() {
         1 => stypes[0],
         count => stypes[step.world.second_dice().below(count as i32) as usize],
@@ -331,7 +332,7 @@ fn alternate_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Directio
 }
 
 /// Chooses the direction of a RandomAltChaser or RandomPathAltChaser, which occasionally takes a random step.
-/// Always makes the first random draw.
+/// The draw that decides this is always made.
 fn or_random<S: Scheduler>(
     step: &mut Step<'_, S>,
     slot: Slot,

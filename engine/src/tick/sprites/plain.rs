@@ -14,7 +14,7 @@ pub(super) fn random_missile(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
 }
 
-/// Updates a flicker, which is killed in the update in which its age exceeds the limit.
+/// Updates a flicker, and kills it if its age exceeds the limit.
 pub(super) fn flicker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     base(step, slot);
     let sprite = step.world.sprite(slot);

@@ -28,8 +28,8 @@ pub(super) fn walker(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     step.world.edit_motion(slot).set(flag::ON_GROUND, false);
 }
 
-/// Updates a WalkerJumper, which jumps occasionally. The reference decides this without using the game's
-/// random number generator.
+/// Updates a WalkerJumper, which jumps occasionally. The reference does not use the game's random number
+/// generator for this decision.
 pub(super) fn walker_jumper(step: &mut Step<'_, impl Scheduler>, slot: Slot) {
     physics::passive(step, slot);
     let sprite = *step.world.sprite(slot);

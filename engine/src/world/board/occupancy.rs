@@ -9,8 +9,8 @@ use crate::numbers::geometry::Rect;
 use crate::rules::SpriteType;
 use crate::world::{Models, NONE, Slot, Sprite, TypeBits, Watcher, World, flag};
 
-/// The maximum number of cells to store individually for a sprite. A sprite that covers more counts as being
-/// everywhere.
+/// The maximum number of cells to store individually for a sprite. A sprite that covers more cells counts as
+/// being everywhere.
 const MAX_COVERED: i32 = 100;
 
 impl World {
@@ -27,8 +27,7 @@ impl World {
         self.enter_located(models, slot, to, watcher);
     }
 
-    /// Records all sprites again from scratch, and notifies the watcher of all of them. Cost: O(sprites +
-    /// cells).
+    /// Records all sprites again from scratch, and notifies the watcher of each. Cost: O(sprites + cells).
     pub(crate) fn reoccupy(&mut self, models: &Models, watcher: &mut impl Watcher) {
         self.cells.fill(NONE);
         self.masks.fill(0);
@@ -105,7 +104,7 @@ impl World {
     }
 
     /// Changes a sprite's rectangle. The sprite then counts as moved in this tick. It must keep its size, and
-    /// must already be located.
+    /// must already be recorded in its cells.
     #[inline(always)]
     pub(crate) fn relocate_to(
         &mut self,
@@ -211,7 +210,8 @@ impl World {
             return self.shift_across(models, bits, (before, from), (after, to), watcher);
         };
         // The move is along one axis. Before and after the move, the sprite covers one or two cells along
-        // that axis. It covers as many cells beside them if it lies in two rows or columns.
+        // that axis. If the sprite lies in two rows or columns, it also covers the same number of cells
+        // beside them.
         let ends = |cell: usize, flags: u32| (cell, if flags & reach != 0 { cell + unit } else { cell });
         let (old, new) = (ends(before, from.flags), ends(after, to.flags));
         for cell in [old.0, old.1].into_iter().take(1 + usize::from(old.1 != old.0)) {
@@ -281,7 +281,7 @@ impl World {
         }
     }
 
-    /// Records that a sprite has stopped covering a cell. The chains are already up to date.
+    /// Records that a sprite has stopped covering a cell. The chains must already be up to date.
     #[inline(always)]
     fn depart(&mut self, models: &Models, bits: TypeBits, cell: usize, watcher: &mut impl Watcher) {
         let TypeBits { own, partners } = bits;
@@ -302,8 +302,8 @@ impl World {
         self.crowds.get(cell).copied().unwrap_or(0)
     }
 
-    /// Records that several sprites with the same bit cover a cell. Returns the bit, because the sprite
-    /// shares the cell with others of its own kind.
+    /// Records that several sprites with the same bit cover a cell. Returns the bit, because the sprite now
+    /// shares the cell with other sprites of the same kind.
     #[inline(never)]
     fn crowd(&mut self, own: u64, cell: usize) -> u64 {
         if self.crowds.is_empty() {
@@ -322,7 +322,7 @@ impl World {
         own
     }
 
-    /// Returns the number of sprites with the bit that cover a cell, but at most 2.
+    /// Returns the number of sprites with the given bit that cover a cell, up to a maximum of 2.
     #[inline(never)]
     fn count_in(&self, models: &Models, cell: usize, own: u64) -> u32 {
         let stride = (self.columns + 2) as usize;
@@ -355,7 +355,8 @@ impl World {
         self.covered = covered;
     }
 
-    /// Recomputes the cells that large sprites cover, once they have left enough cells to justify the cost.
+    /// Recomputes the cells that large sprites cover, if those sprites have left enough cells to justify the
+    /// cost.
     #[inline]
     pub(crate) fn tidy_covered(&mut self, models: &Models) {
         if self.left_behind as usize > 4 * self.big as usize + self.cells.len() / 16 {
@@ -409,7 +410,8 @@ impl World {
         }
     }
 
-    /// Updates the counts that describe how a type's sprites lie in their cells.
+    /// Updates a type's counts of sprites that are large, cover several cells or are not completely on the
+    /// screen.
     #[inline]
     fn lie(&mut self, models: &Models, stype: SpriteType, from: u32, to: u32, watcher: &mut impl Watcher) {
         if (from ^ to) & flag::OFF != 0 {

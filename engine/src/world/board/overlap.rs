@@ -28,7 +28,7 @@ impl Hit {
     }
 }
 
-/// The sprites that overlap a sprite, usually only a few.
+/// The sprites that overlap a sprite. There are usually only a few.
 pub(crate) type Hits = SmallVec<[Hit; 8]>;
 /// The slots of the hits.
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
@@ -65,8 +65,8 @@ impl World {
         Hit::new(side.family.rank[sprite.stype.index()], sprite.id, slot)
     }
 
-    /// Returns `true` if another sprite on a side may overlap `sprite`, whose own bit is `own`, because they
-    /// share a cell.
+    /// Returns `true` if another sprite on a side may overlap `sprite`, because the two share a cell. `own`
+    /// is the type bit of `sprite`.
     #[inline(always)]
     pub(crate) fn may_overlap(&self, own: u64, side: Side<'_>, sprite: &Sprite) -> bool {
         let cell = self.cell_of(sprite);
@@ -113,7 +113,7 @@ impl World {
         bits & side.bits != 0 || self.span_is_covered(self.span(cell, lies), side)
     }
 
-    /// Returns `true` if a large sprite on a side may reach into the cells.
+    /// Returns `true` if a large sprite on a side may reach into the cells of `span`.
     #[inline(always)]
     fn span_is_covered(&self, span: Span, side: Side<'_>) -> bool {
         self.big_bits & side.bits != 0
@@ -162,7 +162,7 @@ impl World {
         if sprite.is(flag::BIG) || self.span_is_covered(span, side) {
             return self.overlapping_rect(reach, side, (slot, rect), above, hits);
         }
-        // Sprites in several cells may reach over from the cells to the left and above.
+        // Sprites in several cells may extend from the cells to the left and above.
         let reached = i32::from(self.multi_cell_bits & side.bits != 0);
         let (column, row) = (i32::from(sprite.column), i32::from(sprite.row));
         let mut looked = 0;
@@ -193,8 +193,8 @@ impl World {
         let family = side.family;
         let sprites = family.tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum::<i32>();
         if cells > sprites {
-            // The sprites are visited, because there are fewer sprites than cells from which a sprite can
-            // reach into the rectangle.
+            // Visit the sprites rather than the cells, because there are fewer sprites than cells from which
+            // a sprite can reach into the rectangle.
             let types = family.tree.iter().enumerate();
             let types = types.filter(|(at, stype)| usize::from(family.rank[stype.index()]) == *at);
             let all = types.flat_map(|(_, &stype)| self.slots(stype));

@@ -1,5 +1,4 @@
-//! Placement of rectangles in the board's cells. Columns and rows are numbered from the ring around the
-//! board.
+//! Placement of rectangles in the board's cells. The ring around the board has column 0 and row 0.
 
 use crate::numbers::geometry::Rect;
 use crate::world::{Slot, Sprite, World, flag};
@@ -14,12 +13,12 @@ pub(crate) struct Located {
 }
 
 impl World {
-    /// Returns the column of a pixel, numbered from the ring: column 0 is left of the board.
+    /// Returns the column of a pixel. Column 0 is the ring to the left of the board.
     pub(crate) fn column(&self, x: i32) -> i32 {
         x.div_euclid(self.block).clamp(-1, self.columns) + 1
     }
 
-    /// Returns the row of a pixel, numbered from the ring: row 0 is above the board.
+    /// Returns the row of a pixel. Row 0 is the ring above the board.
     pub(crate) fn row(&self, y: i32) -> i32 {
         y.div_euclid(self.block).clamp(-1, self.rows) + 1
     }
@@ -37,13 +36,13 @@ impl World {
         Rect { x: 0, y: 0, w: self.columns * self.block, h: self.rows * self.block }
     }
 
-    /// Returns the number of cells on the board, including its ring.
+    /// Returns the number of cells on the board, including the ring around it.
     pub(crate) fn cell_count(columns: i32, rows: i32) -> usize {
         ((columns + 2) * (rows + 2)) as usize
     }
 
     /// Locates a rectangle. `column` and `row` are a guess that usually saves a division, because most moves
-    /// end in the same cell or a neighbouring one.
+    /// end in the same cell or a neighbouring cell.
     #[inline(always)]
     pub(crate) fn locate(&self, rect: Rect, column: i16, row: i16) -> Located {
         let block = self.block;
@@ -126,7 +125,8 @@ impl World {
         (from, self.locate_moved(from, self.own(slot).rect, rect))
     }
 
-    /// Returns the column and row of a rectangle's top-left corner, numbered from the ring.
+    /// Returns the column and row of a rectangle's top-left corner. The ring around the board has column 0
+    /// and row 0.
     pub(crate) fn place_of(&self, rect: Rect) -> (i16, i16) {
         (self.column(rect.x) as i16, self.row(rect.y) as i16)
     }
@@ -136,9 +136,9 @@ fn bit(on: bool, bit: u32) -> u32 {
     if on { bit } else { 0 }
 }
 
-/// Returns the cell of a pixel along one axis, numbered from the ring, if the pixel is on the board and its
-/// cell is `guess` or next to `guess`. Also returns `true` if a sprite that starts at the pixel and is no
-/// larger than a cell reaches into the next cell.
+/// Returns the column or row of a pixel, where the ring around the board is 0. The flag is `true` if a sprite
+/// that starts at the pixel, and is no larger than a cell, reaches into the next cell. Returns `None` if the
+/// pixel is off the board, or if its cell is neither `guess` nor next to `guess`.
 #[inline(always)]
 fn near(pixel: i32, size: i32, guess: i16, block: i32, cells: i32) -> Option<(i16, bool)> {
     let mut cell = i32::from(guess) - 1;

@@ -1,7 +1,6 @@
 //! The few cells covered by a sprite no larger than a cell.
 
-/// The cells, at most four, that a small sprite covers within a square on the board that is [`SPAN`] cells
-/// wide.
+/// The cells that a small sprite covers within a square that is [`SPAN`] cells wide. There are at most four.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Span {
     /// The cell at the square's corner.
@@ -35,8 +34,8 @@ impl Span {
         })
     }
 
-    /// Returns the cells that are only in this span, and those that are only in the other span, whose corner
-    /// is `columns` and `rows` away.
+    /// Returns the cells that are only in this span, and the cells that are only in `other`. The corner of
+    /// `other` is `columns` and `rows` away.
     #[inline(always)]
     pub(crate) fn apart(self, other: Span, columns: i32, rows: i32) -> (Span, Span) {
         if !(-1..2).contains(&columns) || !(-1..2).contains(&rows) {

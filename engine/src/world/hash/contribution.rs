@@ -3,8 +3,8 @@
 //!
 //! A state's hash is a sum over its sprites. Each sprite adds the product of a number and its own keys
 //! (`mod.rs`). The number is linear in the sprite's position and the tick of its last move, so sprites in
-//! flight need no update. All sprites that move in the same ticks form one linear hash class. After each of
-//! their moves, the sum grows by the growth of the class.
+//! flight need no update. All sprites that move in the same ticks form one linear hash class. Each of their
+//! moves adds the class's growth to the sum.
 
 use super::{KEYS, Products, SECRET, bits, fold, two};
 use crate::flat::bytes_of_fields;
@@ -28,7 +28,7 @@ impl World {
 
 /// Returns the hash of a sprite's rarely changed values.
 ///
-/// The last rectangle is only included for sprites that are not updated. For all others, the current
+/// The last rectangle is included only for sprites that are not updated. For all others, the current
 /// rectangle replaces it before the next tick reads it.
 #[inline(always)]
 fn still_hash(sprite: &Sprite, slot: Slot, tables: &SideTables<'_>) -> u64 {
@@ -53,8 +53,8 @@ fn hash_of(sprite: &Sprite, overrides: &Overrides, last: Option<&Rect>) -> u64 {
     fold(low ^ SECRET[0], high ^ SECRET[1])
 }
 
-/// A sprite's hash contribution when the hash was last settled: `word`, plus its growth since then, times the
-/// sprite's own keys.
+/// A sprite's hash contribution when the hash was last settled. It is the sum of `word` and its growth since
+/// then, multiplied by the sprite's keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Contribution {
     /// The position and all other values that change with movement, as one number. For a sprite in flight,
@@ -68,7 +68,7 @@ pub(crate) struct Contribution {
 
 bytes_of_fields! { Contribution { word motion still } }
 
-/// The weights of a pixel down and of a later tick in [`Contribution::word`]. A pixel to the right has a
+/// The weights in [`Contribution::word`] of a pixel downwards and of a tick. A pixel to the right has a
 /// weight of 1.
 const DOWN: u64 = 0x9FB2_1C65_1E98_DF25;
 const LATER: u64 = 0xD1B5_4A32_D192_ED03;
@@ -86,7 +86,7 @@ bytes_of_wrapper! { FlightMotion }
 
 impl FlightMotion {
     const NONE: FlightMotion = FlightMotion(0);
-    /// A bit set if the tick of the last move matters.
+    /// The bit that is set if the tick of the last move matters.
     const AGES: u64 = 1 << 63;
 
     fn of(sprite: &Sprite, ages: bool) -> FlightMotion {
@@ -119,8 +119,8 @@ impl FlightMotion {
     }
 }
 
-/// Returns `true` if the tick of a sprite's last move matters, either as its age or for a cooldown that may
-/// delay it.
+/// Returns `true` if the tick of a sprite's last move matters, either as the sprite's age or for a cooldown
+/// that may delay the sprite.
 #[inline(always)]
 fn ages(sprite: &Sprite) -> bool {
     sprite.flags & (flag::NO_COOLDOWN | flag::FROZEN) != flag::NO_COOLDOWN
@@ -157,7 +157,7 @@ impl Contribution {
         }
     }
 
-    /// Returns `true` if [`Contribution::follow`] suffices (the most frequent case). That is, the sprite
+    /// Returns `true` if [`Contribution::follow`] suffices, which is the most frequent case. The sprite then
     /// neither was nor is in flight, and only values that change with movement have changed.
     #[inline(always)]
     pub(crate) fn is_of_one_that_only_moved(&self, sprite: &Sprite) -> bool {
@@ -191,7 +191,7 @@ impl Contribution {
         Contribution { word: word.wrapping_sub(motion.growth().wrapping_mul(moves)), motion, still }
     }
 
-    /// Returns the keys, which are odd, so that no difference between two words is lost.
+    /// Returns the sprite's keys. They are odd, so that no difference between two words is lost.
     #[inline(always)]
     fn keys(self) -> Sum {
         [self.still | 1, (self.still ^ self.still >> 32).wrapping_mul(SECRET[0]) | 1]

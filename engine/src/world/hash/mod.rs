@@ -14,7 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::fmt;
 
-/// A short list, to be sorted before hashing.
+/// A short list that is sorted before hashing.
 type Few<T> = SmallVec<[T; 4]>;
 
 macro_rules! hash_type {
@@ -45,7 +45,7 @@ macro_rules! hash_type {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<$name, D::Error> {
                 let text = String::deserialize(deserializer)?;
                 let number = u128::from_str_radix(&text, 16).ok();
-                // Each hash has exactly one accepted spelling.
+                // Each hash has exactly one valid spelling.
                 number.map($name).filter(|hash| hash.to_string() == text).ok_or_else(|| {
                     serde::de::Error::custom(format!("`{text}` is not 32 hexadecimal digits"))
                 })
@@ -55,7 +55,7 @@ macro_rules! hash_type {
 }
 
 hash_type! {
-    /// A state's hash. Equal states have equal hashes. Omits values that only matter for images or
+    /// A state's hash. Equal states have equal hashes. Omits values that matter only for images or
     /// bookkeeping.
     StateHash
 }
@@ -101,7 +101,7 @@ pub(crate) fn two(a: i32, b: i32) -> u64 {
     u64::from(a as u32) << 32 | u64::from(b as u32)
 }
 
-/// Returns a double's bits. A fixed NaN replaces any NaN, whose bits differ between machines.
+/// Returns a double's bits. Every NaN is replaced by one fixed NaN, because NaN bits differ between machines.
 pub(crate) fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }

@@ -6,10 +6,10 @@ use crate::rules::{Rules, SpriteType, TypeInfo};
 use crate::world::{NO_HEADING, NONE, Overrides, Sprite, flag};
 
 /// The number of bits in a cell mask. If there are more types than bits, the remaining types share the last
-/// bit. Their rules are then tested more often than needed, with the same results.
+/// bit. Rules on these types are then tested more often than necessary, with the same results.
 const BITS: usize = 64;
 
-/// The part of a type that the world needs.
+/// The part of a type's data that the world needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub(crate) prototype: Sprite,

@@ -1,4 +1,5 @@
-//! Each sprite's rectangle at the start of its own last update, which the reference stores in each sprite.
+//! Each sprite's rectangle at the start of its last update. The reference stores this rectangle in each
+//! sprite.
 //!
 //! Each sprite stores its earlier corner. Its earlier size equals its current size, except for the few
 //! sprites that have been resized since.
@@ -78,13 +79,13 @@ impl World {
         self.sprites[usize::from(slot)].moved_at = self.tick;
     }
 
-    /// Drops from the list of moved sprites those whose flag is no longer set.
+    /// Removes from the list of moved sprites those whose flag is no longer set.
     pub(crate) fn shorten_moved(&mut self) {
         let World { moved, sprites, .. } = self;
         moved.retain(|&slot| sprites[usize::from(slot)].is(flag::MOVED));
     }
 
-    /// Records the move of a sprite that is not yet in the list.
+    /// Adds a sprite to the list of moved sprites. The sprite must not be in the list yet.
     pub(crate) fn note_moved(&mut self, slot: Slot) {
         self.sprites[usize::from(slot)].set(flag::MOVED, true);
         self.moved.push(slot);
@@ -109,8 +110,8 @@ impl World {
     }
 
     /// Sets each sprite's last rectangle to its current rectangle. The reference does this for each sprite
-    /// before its own update. The result differs only for sprites that have moved by then, and nothing reads
-    /// another sprite's last rectangle before the events.
+    /// immediately before the sprite's update. The result differs only for sprites that have moved by then,
+    /// and nothing reads another sprite's last rectangle before the event phase.
     #[inline]
     pub(crate) fn settle_moved(&mut self) {
         let World { sprites, moved, resized, .. } = self;

@@ -39,7 +39,7 @@ pub(crate) struct Extra {
     pub(crate) facing: Direction,
     /// The tick of a WizardAvatar's last block.
     pub(crate) block_time: i32,
-    /// The target of a PathAltChaser, and the last target position to which it knew a path.
+    /// The target of a PathAltChaser, and the last target position to which the sprite knew a path.
     pub(crate) target: Target,
     pub(crate) last_known: Option<(i32, i32)>,
 }
@@ -84,7 +84,7 @@ impl World {
         &self.overrides[usize::from(sprite.overrides)]
     }
 
-    /// Returns the number of overrides: one per type, and the overrides that sprites own.
+    /// Returns the number of overrides: one per type, plus those that sprites own.
     pub(crate) fn overrides_count(&self) -> usize {
         self.overrides.len()
     }

@@ -1,4 +1,4 @@
-//! Side tables for data about single sprites: held resources, and changed entries in lists of types to
+//! Side tables for data about single sprites: held resources, and replaced entries in the lists of types to
 //! create. Few sprites have such data, so it is stored in two sorted lists in the state.
 
 use crate::flat::bytes_of_fields;
@@ -42,8 +42,8 @@ impl World {
         self.find_held(holder, resource).map_or(0, |at| self.held[at].amount)
     }
 
-    /// Adds to the amount of a resource that a sprite holds. The amount stays at 0 or above, and even 0 gets
-    /// an entry.
+    /// Adds to the amount of a resource that a sprite holds. The amount never drops below 0, and even an
+    /// amount of 0 gets an entry.
     pub(crate) fn add_amount(&mut self, holder: Slot, resource: SpriteType, change: i32) {
         match self.find_held(holder, resource) {
             Ok(at) => self.held[at].amount = self.held[at].amount.wrapping_add(change).max(0),

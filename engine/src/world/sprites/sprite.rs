@@ -46,9 +46,9 @@ pub(crate) mod flag {
     pub(crate) const BIG: u32 = 16_384;
     /// The sprite covers, or may cover, more than one cell.
     pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
-    /// Its cooldown never delays the sprite, so the tick of its last move does not matter.
+    /// The cooldown never delays the sprite, so the tick of the sprite's last move does not matter.
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
-    /// The hash contribution has changed in more than the values that change with movement.
+    /// Values other than those that change with movement have changed in the hash contribution.
     pub(crate) const CHANGED: u32 = 65_536;
     /// The sprite is in `World::resized`, because it had a different size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;
@@ -75,14 +75,14 @@ pub(crate) struct Sprite {
     /// The tick of the last move. The reference's `lastmove` is the current tick minus this one.
     pub(crate) moved_at: i32,
     pub(crate) time_to_live: i32,
-    /// For a flicker, its age. For an NPC, the number of times that the last direction was repeated. For a
-    /// spawner, the number of sprites spawned.
+    /// A flicker's age, the number of times that an NPC has repeated its last direction, or the number of
+    /// sprites that a spawner has created.
     pub(crate) count: i32,
     pub(crate) flags: u32,
     pub(crate) stype: SpriteType,
     /// The index in `World::overrides` of the sprite's own entry or of its type's entry.
     pub(crate) overrides: u16,
-    /// The schedule's note about what happened to the sprite in this tick.
+    /// The schedule's record of the sprite's activity in this tick.
     pub(crate) activity: u16,
     /// For a sprite in flight, the number of ticks between its moves (`flight.rs`). For all other sprites, 0.
     pub(crate) period: u16,
@@ -92,7 +92,7 @@ pub(crate) struct Sprite {
     /// The neighbours in the cell's chain.
     pub(crate) cell_next: Slot,
     pub(crate) cell_previous: Slot,
-    /// The cell's column and row, numbered from the ring around the board.
+    /// The cell's column and row. The ring around the board has column 0 and row 0.
     pub(crate) column: i16,
     pub(crate) row: i16,
 }

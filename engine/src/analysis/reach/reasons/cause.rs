@@ -5,8 +5,8 @@ use crate::rules::SpriteType;
 /// The reason why a termination can never hold in a level.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// Too many sprites can never be removed. Each sprite is paired with the cell in which the level places
-    /// it.
+    /// More sprites than the termination allows can never be removed. Each sprite is paired with the cell in
+    /// which the level places it.
     Permanent(Vec<(SpriteType, usize)>),
     /// The number of sprites of the counted types can never exceed this maximum.
     AtMost(i64),
@@ -14,8 +14,7 @@ pub enum Cause {
     Unpaid(Unpaid),
 }
 
-/// Sprites that must be removed for a win, with the resource that each removal costs and that does not
-/// suffice.
+/// Sprites that must be removed for a win, and the resource that is too scarce to pay for their removal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unpaid {
     /// The type of one of the sprites that must be removed.

@@ -1,5 +1,5 @@
-//! The reasons why a termination can never hold in a level, as a chain from its requirements to the first one
-//! that is impossible.
+//! The reasons why a termination can never hold in a level, as a chain of requirements that ends with the
+//! first impossible one.
 //!
 //! Every link is proven by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a requirement
 //! counts as missing only if it is missing in every cell that sprites can reach. The links are not
@@ -124,7 +124,7 @@ const MAX_SOURCES: usize = 16;
 /// The maximum number of consecutive blocking sprites to follow.
 const MAX_DEPTH: usize = 4;
 
-/// The value that stands in for the cell in [`Reported`] entries about creating sprites.
+/// The value used instead of a cell in [`Reported`] entries about creating sprites.
 const UNMADE: usize = usize::MAX;
 
 /// The sprites whose obstacles have already been reported, each with its cell or [`UNMADE`].
@@ -137,7 +137,7 @@ enum Ended {
     Anywhere,
 }
 
-/// Derives chains from the completed fixed point.
+/// The data for deriving chains: the completed fixed point, and the analysis.
 pub(crate) struct Chains<'a, 'e> {
     analysis: &'a Analysis,
     events: Events<'e>,
@@ -150,7 +150,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         Chains { analysis, events, gifts }
     }
 
-    /// Returns the chain of causes for a termination that can never hold for this reason.
+    /// Returns the chain of causes for a termination that can never hold for the given reason.
     pub(crate) fn chain(&mut self, goal: usize, cause: Cause) -> Chain {
         let mut reported = Vec::new();
         let obstacles = match &cause {
@@ -410,7 +410,7 @@ impl<'a, 'e> Chains<'a, 'e> {
         found.into_iter().map(|(cell, stype)| (stype, cell)).collect()
     }
 
-    /// Returns `true` if sprites to which a rule on `written` applies can exist.
+    /// Returns `true` if a rule on `written` can apply to some sprite.
     fn is_alive(&self, written: SpriteType) -> bool {
         let tree = &self.analysis.game().0.types[written.index()].tree;
         tree.iter().any(|&stype| self.events.can_occur(stype))

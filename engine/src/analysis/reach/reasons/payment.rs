@@ -1,4 +1,4 @@
-//! Removals that cost a resource: a win is impossible if there is not enough of the resource for the required
+//! Removals that cost a resource. A win is impossible if there is not enough of the resource for all required
 //! removals.
 
 use super::cause::{Cause, Unpaid};
@@ -99,7 +99,7 @@ impl Analysis {
         Some(payments)
     }
 
-    /// Returns `true` unless an interaction definitely never takes effect.
+    /// Returns `true` unless an interaction provably never takes effect.
     fn can_happen(&self, encounter: &Encounter, events: &Events<'_>) -> bool {
         let occurs = |written: SpriteType| {
             let mut family = self.game.0.types[written.index()].tree.iter();
@@ -138,8 +138,8 @@ impl Analysis {
                 taking: encounter.line,
             });
         }
-        // In the same tick, the next rule for the two sprites takes the resource, provided that they still
-        // touch.
+        // In the same tick, the next rule for the two sprites takes the resource, provided that the sprites
+        // still overlap.
         let takes = |later: &Encounter| {
             let by = taken(later, Side::First)?;
             let second = later.second?;
