@@ -2,8 +2,8 @@
 //! that try many futures of one state.
 //!
 //! Each state has its own random seed, and keeps its index on every thread, so no result depends on the number of
-//! threads. Actions and results are slices, so that one call replaces thousands. Lanes are not reset automatically,
-//! so the caller can inspect the last state of an episode before deciding how to continue.
+//! threads. Actions and results are slices, so one call replaces thousands of calls. Lanes are not reset
+//! automatically, so the caller can inspect the last state of an episode before deciding how to continue.
 
 use base::Seed;
 use engine::{Action, Chance, Game, Level, Outcome, State};
@@ -19,7 +19,7 @@ const STEPS_OF_A_TASK: usize = 64;
 /// Work is distributed over the current rayon pool. Fewer than a few hundred steps run on the calling thread.
 ///
 /// # Examples
-/// Each lane plays one episode after the other:
+/// Each lane plays one episode after another:
 ///
 /// ```
 /// use infinite_arcade_agents::Batch;
@@ -224,7 +224,7 @@ impl Batch {
     }
 
     /// Plays a plan in every lane. All plans have the same length. The layout of `plans` is `[lane][tick]`, one plan
-    /// after the other. The results are the same as if [`Batch::step`] were called once per tick. However, `play` is
+    /// after another. The results are the same as if [`Batch::step`] were called once per tick. However, `play` is
     /// faster, because the threads synchronise only once instead of in every tick.
     ///
     /// # Errors
@@ -278,7 +278,7 @@ impl Batch {
         count
     }
 
-    /// Resets every lane whose outcome matches to the start of its current episode.
+    /// Resets every lane whose outcome satisfies `whose` to the start of its current episode.
     fn begin(&mut self, whose: impl Fn(&Outcome) -> bool + Sync) {
         let (seed, roots) = (self.seed, &self.roots);
         (&mut self.states, &self.episodes, &mut self.outcomes, &mut self.scores)

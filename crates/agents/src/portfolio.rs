@@ -1,4 +1,4 @@
-//! A portfolio of methods for winning a level, which is the default method to determine whether a level can be won.
+//! A portfolio of methods for winning a level. By default, the portfolio decides whether a level can be won.
 
 use crate::planner::{Budget, Planner};
 use crate::play::{Limits, Play, Stopped, play_until};
@@ -13,19 +13,19 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters of the portfolio, which divide a budget between its methods.
+    /// The parameters of the portfolio. They divide a budget between its methods.
     ///
     /// In a deterministic game, systematic search comes first: [`a_star`] for small levels, then
     /// [`best_first`]. After that, and from the start in stochastic games, planners play episodes in rounds
     /// of growing length:
     ///
     /// - [`Width`] looks far ahead.
-    /// - [`GuidedMcts`] follows the rules' targets.
+    /// - [`GuidedMcts`] heads for the targets that follow from the rules.
     /// - [`Olets`] stays alive.
     /// - [`MctsConfig::bold`] searches take risks.
     ///
-    /// In a stochastic game, if part of the budget is reserved for foresight, a [`best_first`] search that foresees
-    /// all randomness of one episode runs once the planners have spent half of their calls.
+    /// In a stochastic game, part of the budget can be reserved for foresight. In that case, a [`best_first`] search
+    /// that foresees all randomness of one episode runs once the planners have spent half of their calls.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct PortfolioConfig {
@@ -39,9 +39,9 @@ base::with_defaults! {
         pub foresight: f64 = 0.0,
         /// The memory limit of a systematic search, in bytes.
         pub bytes: usize = 1 << 30,
-        /// The maximum number of calls per decision of a planner. Planners get fewer calls if an episode would
-        /// otherwise exceed its part of the budget. The cost is estimated for an episode of [`USUAL_TICKS`], or for
-        /// an episode that lasts until the tick at which survival wins.
+        /// A planner's maximum number of calls per decision. Planners get fewer calls if an episode would otherwise
+        /// exceed its part of the budget. The cost of an episode is estimated from its expected length:
+        /// [`USUAL_TICKS`], or the tick at which survival wins.
         pub decision: u64 = 500,
         /// The look-ahead, in ticks, of each bold Monte-Carlo tree search. Each entry adds one such player.
         pub depths: Vec<u32> = vec![20],
@@ -51,7 +51,7 @@ base::with_defaults! {
 /// The result of the portfolio.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The answer to the question whether the level can be won, as far as known.
+    /// The answer to the question of whether the level can be won, as far as it is known.
     pub solution: Solution,
     /// The number of forward-model calls across all searches and episodes.
     pub calls: u64,
@@ -59,7 +59,7 @@ pub struct Solved {
     pub plays: Vec<Play>,
 }
 
-/// An answer to the question whether a level can be won.
+/// An answer to the question of whether a level can be won.
 #[derive(Clone, Debug)]
 pub enum Solution {
     /// The level was won in an episode.
@@ -80,12 +80,12 @@ pub enum Solution {
     Unknown,
 }
 
-/// The divisor of the total budget that gives the budget of the first round. Each later round may cost twice as much
+/// The total budget divided by this number is the budget of the first round. Each later round may cost twice as much
 /// as the one before.
 const FIRST_ROUND: u64 = 16;
 
-/// Searches for a win. The same configuration and seed produce the same result with any number of threads.
-/// Episodes record the steps from the root of a [`SeedPath`], or from the given seed.
+/// Searches for a win. The same configuration and seed produce the same result with any number of threads. Each
+/// episode records the path of its seed, from the root of a [`SeedPath`] or from the given seed.
 pub fn solve(
     analysis: &Analysis,
     level: &Level,
@@ -195,8 +195,8 @@ const USUAL_TICKS: u64 = 700;
 /// The minimum number of calls per decision.
 const LEAST_DECISION: u64 = 30;
 
-/// Plays one episode with each planner. The budget is divided equally between the planners. An episode stops at the
-/// first decision that would exceed its part.
+/// Plays one episode with each planner. The budget is divided equally between the planners. An episode stops once it
+/// has spent its part of the budget.
 fn play_round(
     analysis: &Analysis,
     level: &Level,

@@ -5,8 +5,8 @@ use crate::planner::Budget;
 use crate::registry::{PlannerSpec, Player, UnknownPlanner};
 use base::Seed;
 
-/// A registered planner with a fixed number of forward-model calls per decision, written as in `mcts:500`. The
-/// planner depends only on its name and on the number of calls, so its wins are comparable across levels.
+/// A registered planner with a fixed number of forward-model calls per decision, such as `mcts:500`. The planner
+/// depends only on its name and on the number of calls, so its wins are comparable across levels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReferencePlanner {
     name: String,

@@ -69,8 +69,8 @@ const BASELINES: [&str; 3] = ["do-nothing", "random", "random-with-nil"];
 /// Planners that look ahead but make only a few calls, regardless of their budget.
 const SHALLOW: [&str; 3] = ["one-step", "one-step-score", "nearest-goal"];
 
-/// A planner as specified by users: `mcts`, or `olets:500`, which includes the number of forward-model calls per
-/// decision.
+/// A planner as specified by a user, such as `mcts` or `olets:500`. The number after the colon is the number of
+/// forward-model calls per decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannerSpec {
     name: String,
@@ -166,7 +166,7 @@ impl fmt::Display for UnknownPlanner {
     }
 }
 
-/// Returns the planner with this name and default parameters. A budget in the name is ignored.
+/// Returns the planner with the given name, with default parameters. A budget in the name is ignored.
 ///
 /// # Errors
 ///

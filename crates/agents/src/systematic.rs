@@ -7,7 +7,7 @@ use engine::analysis::Analysis;
 use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
-/// The length of a plan in a stochastic game, and of the first plan without a win in a deterministic game, in ticks.
+/// The length in ticks of a plan in a stochastic game, and of the first plan without a win in a deterministic game.
 const AHEAD: usize = 10;
 
 /// A player that uses [`best_first`] to search for a complete winning plan, and plays this plan without searching
@@ -19,7 +19,7 @@ const AHEAD: usize = 10;
 /// the search treats one imagined future as the only possible one. Such a search gets a tenth of the budget, and is
 /// repeated after ten ticks.
 ///
-/// Cost: the budget, or a tenth of it, for each new plan, and no calls in between. A search uses up to a
+/// Cost: each new plan costs the budget or a tenth of it. No calls are made between new plans. A search uses up to a
 /// gibibyte of memory.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Systematic {

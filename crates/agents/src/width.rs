@@ -295,7 +295,7 @@ impl Planner for Width {
                 tried.count += 1.0;
             }
         }
-        // The value beyond the horizon counts in proportion to the tries that reach the horizon.
+        // The value beyond the horizon is weighted by the fraction of the tries that reach the horizon.
         let expected = |(plan, tried): (&Plan, &Tried)| {
             if tried.count == 0.0 {
                 return plan.worth();

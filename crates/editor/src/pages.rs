@@ -92,7 +92,7 @@ pub(crate) fn parameters(owner: Owner<'_>) -> Vec<&'static str> {
         }
         Owner::Effect(keyword, planned) => {
             let own = [Some(keyword), planned].into_iter().flatten().flat_map(effect_parameters);
-            // The number of a type matters only to the reference.
+            // Type numbers matter only to the reference.
             let own = own.filter(|(_, kind)| *kind != ParameterKind::TypeNumber).map(|(key, _)| key);
             let clock: &[&str] = if keyword == "addTimer" { &values::OF_CLOCKS } else { &[] };
             own.chain(clock.iter().copied()).chain(values::OF_EFFECTS).collect()

@@ -7,16 +7,16 @@ use engine::{ParameterKind, SpriteClass, effect_parameters};
 pub(crate) enum Owner<'a> {
     /// A game's first line.
     Game,
-    /// A sprite type of the given class, either inherited or its own.
+    /// A sprite type of the given class, which may be inherited.
     Sprite(Option<SpriteClass>),
-    /// An effect, identified by its keyword. The second keyword is that of the effect that the first one schedules,
-    /// if any.
+    /// An effect, identified by its keyword. If the effect schedules a different effect, the second keyword
+    /// identifies that effect.
     Effect(&'a str, Option<&'a str>),
     /// A termination, identified by its class.
     Termination(&'a str),
     /// A parameter of a `GameSpace`.
     Parameter,
-    /// A line without a subject.
+    /// A line to which no owner can be assigned, such as a section name or an incomplete interaction.
     Nobody,
 }
 

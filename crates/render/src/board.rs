@@ -46,8 +46,8 @@ pub fn picture(looks: &Looks, state: &State, style: &Style) -> Result<Picture, R
     Ok(picture)
 }
 
-/// Creates an image of a board, to which `draw` adds the sprites. `draw` receives the left edge of the board. If the
-/// style requires them, adds the legend and leaves space above it for a caption. Also returns the height of the
+/// Creates an image of a board, to which `draw` adds the sprites. `draw` receives the left edge of the board. Adds
+/// the legend, and leaves space above it for a caption, if the style requires them. Also returns the height of the
 /// board, below which the caption is placed.
 pub(crate) fn framed(
     looks: &Looks,

@@ -9,9 +9,8 @@ use engine::{Outcome, State};
 /// The number of characters for the outcome, including the gap before it.
 const ENDING: usize = 9;
 
-/// Returns the height of the strip, which is the same for all states. There is always one row. There is one
-/// additional row each for resources or health, for sprite counts that decide a win, and for countdowns, if the game
-/// has them.
+/// Returns the height of the strip, which is the same for all states. There is always one row. Resources or health,
+/// sprite counts that decide a win, and countdowns each add a row if the game has them.
 pub(crate) fn height(looks: &Looks, style: &Style) -> u32 {
     let prospects = looks.prospects();
     let more = [looks.has_holdings(), prospects.has_goals(), prospects.counts_down()];

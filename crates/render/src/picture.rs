@@ -114,7 +114,7 @@ impl Picture {
         self.stamps.push(Stamp { tile, place });
     }
 
-    /// Adds a sprite's tile. `facing` is the direction of its front, of unit length.
+    /// Adds a sprite's tile. `facing` is a unit vector in the direction that the sprite faces.
     pub(crate) fn sprite(&mut self, place: Place, name: &str, look: Look, facing: Option<Point>) {
         let front = facing.map(|direction| direction.map(|part| (part * 1000.0).round() as i16));
         let facing = front.map(|front| front.map(|part| f32::from(part) / 1000.0));

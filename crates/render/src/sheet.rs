@@ -17,10 +17,9 @@ const LEADING: u32 = 19;
 
 const LINES: usize = 4;
 
-/// Arranges images in rows of `columns`. Each image is shrunk, but never enlarged, to fit a square of `side`
-/// pixels, and its caption is placed below. The first line of a caption is shortened to fit. The text after a
-/// line feed is broken into up to three more lines. A row is as high as its highest image plus its longest
-/// caption.
+/// Arranges images in rows of `columns` images. Each image is shrunk, but never enlarged, to fit a square of `side`
+/// pixels, and its caption is placed below. The first line of a caption is shortened to fit. The text after a line
+/// feed is broken into up to three more lines. A row is as high as its tallest image plus its longest caption.
 ///
 /// # Errors
 ///
@@ -64,8 +63,8 @@ pub fn sheet(entries: &[(Picture, String)], columns: usize, side: u32) -> Result
     Ok(sheet)
 }
 
-/// Returns the lines of a caption, of which there is at least one. Words that are too long are shortened to the
-/// length of a line. If there are too many lines, the last line is shortened as well.
+/// Returns the lines of a caption (at least one). Words that are too long are shortened to the length of a line. If
+/// there are too many lines, the last line is shortened as well.
 fn broken(caption: &str, letters: usize) -> Vec<String> {
     let (first, rest) = caption.split_once('\n').unwrap_or((caption, ""));
     let mut lines = vec![first.to_owned()];
@@ -85,13 +84,13 @@ fn broken(caption: &str, letters: usize) -> Vec<String> {
     lines.iter().map(|line| shortened(line, letters)).collect()
 }
 
-/// Returns every glyph with its meaning, in rows of `columns`, as a legend for all boards.
+/// Returns every glyph with its meaning, in rows of `columns` glyphs, as a legend for all boards.
 pub fn gallery(columns: usize) -> Picture {
     let entries: Vec<_> = Glyph::ALL.iter().map(|&glyph| (Look::plain(glyph), glyph.meaning())).collect();
     shelves(&entries, columns, 290)
 }
 
-/// Returns every figure with its name, in rows of `columns`, drawn in colours that games use.
+/// Returns every figure with its name, in rows of `columns` figures, drawn in colours that games use.
 pub fn figures(columns: usize) -> Picture {
     const COLOURS: [Colour; 6] = [ORANGE, SKY, GREEN, YELLOW, VERMILION, PURPLE];
     let look = |(form, at): (Form, usize)| {

@@ -120,7 +120,7 @@ pub enum SnapshotError {
         /// The newest format supported by this binary.
         known: u32,
     },
-    /// The manifest is not JSON, or is not JSON with the expected structure.
+    /// The manifest is not JSON, or does not have the expected structure.
     #[error("`{}` is not a snapshot manifest: fetch the snapshot again", .path.in_message())]
     Syntax {
         /// The manifest's path.

@@ -37,7 +37,7 @@ pub struct ReleasedGame {
     pub game: Game,
     /// The levels, in card order.
     pub levels: Vec<ReleasedLevel>,
-    /// The sibling that a coin withheld, if it exists and has been revealed.
+    /// The sibling that a coin toss selected to be withheld, if it exists and has been revealed.
     pub sibling: Option<ReleasedSibling>,
 }
 
@@ -61,13 +61,13 @@ pub struct ReleasedLevel {
     pub level: Level,
     /// A winning episode, if the release contains one.
     pub witness: Option<Episode>,
-    /// The win that a coin withheld, if it exists and has been revealed.
+    /// The win that a coin toss selected to be withheld, if it exists and has been revealed.
     pub second: Option<Episode>,
 }
 
 impl ReleasedLevel {
-    /// Returns the beginnings of the published win and the withheld win, which are different. They have the same
-    /// length, at most [`PREFIX`] actions. Returns `None` if either win is missing.
+    /// Returns the first actions of the published win and of the withheld win. The two lists differ, and have the
+    /// same length of at most [`PREFIX`] actions. Returns `None` if either win is missing.
     pub fn beginnings(&self) -> Option<[Vec<Action>; 2]> {
         let (published, withheld) = (&self.witness.as_ref()?.actions, &self.second.as_ref()?.actions);
         let common = PREFIX.min(published.len()).min(withheld.len());

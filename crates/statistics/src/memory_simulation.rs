@@ -13,7 +13,7 @@ pub struct MemoryTrial {
     /// The decrease in ability caused by new names, in logits. Neither sibling uses the names from the games that the
     /// player knows.
     pub hurt: f64,
-    /// The standard deviation, in logits, of the decrease in ability between different sets of names for the same
+    /// The standard deviation, in logits, of the decrease in ability across different sets of names for the same
     /// game.
     pub names: f64,
     /// The standard deviations of game, level and match effects.
@@ -38,8 +38,8 @@ impl MemoryTrial {
         flagged(trials, alpha, || (0..pairs).map(|_| pair()).collect())
     }
 
-    /// Returns the power of the sibling test if each coin toss decides for several pairs of episodes. `pairs`
-    /// contains the number of pairs for each coin. The pairs of a coin are the levels of a game, which share the
+    /// Returns the power of the sibling test if each coin toss applies to several pairs of episodes. `pairs` contains
+    /// the number of pairs for each coin toss. The pairs for one coin toss are the levels of a game, which share the
     /// game's difficulty and names.
     pub fn sibling_games(&self, pairs: &[u64], alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
@@ -110,7 +110,7 @@ mod tests {
     }
 
     /// Several levels of the same game are less informative than levels from different games. The test's error rate
-    /// stays at or below its level.
+    /// stays at or below its significance level.
     #[test]
     fn games_of_several_levels() {
         let known = MemoryTrial { hurt: 0.0, ..trial(0.5) };

@@ -1,4 +1,4 @@
-//! Simulations of evaluations under the model in [`Design`], which measure the coverage of intervals and the error
+//! Simulations of evaluations under the model in [`Design`]. They measure the coverage of intervals and the error
 //! rates of tests. `cargo xtask simulate` prints full tables, and the tests of this crate run small simulations.
 
 use crate::comparisons::stratified::{Stratum, stratified};

@@ -1,6 +1,6 @@
-//! A summary of a sample of scores in five numbers.
+//! A summary of a sample of scores: the count, the mean, the extremes and the median.
 
-/// A summary of a sample, with its count, mean, extremes and median.
+/// A summary of a sample.
 ///
 /// The summary does not depend on the order of the values, so shards and threads may deliver the values in
 /// any order.
@@ -82,8 +82,8 @@ mod tests {
             turned.reverse();
             assert_eq!(Summary::of(&turned), Some(expect));
         }
-        // When summing from the smallest value up, -1e16 absorbs the small values one by one. Summed in the given
-        // order, the result would be 1.8.
+        // When the values are summed from the smallest up, -1e16 absorbs the small values one by one. Summed in the
+        // given order, the result would be 1.8.
         assert_eq!(expect.mean, 0.0);
     }
 

@@ -1,4 +1,4 @@
-//! States as frames, which consist of tiles and of the rectangles (in cells) where the tiles are stamped.
+//! States as frames. A frame consists of tiles, and of the rectangles (in cells) into which the tiles are stamped.
 
 use crate::compiled::Compiled;
 use crate::refusal::Refusal;
@@ -83,7 +83,7 @@ pub(crate) struct Frame {
     height: i32,
     #[serde(skip_serializing_if = "Option::is_none")]
     marks: Option<Vec<Mark>>,
-    /// The difference from the previous frame, which takes the place of the marks.
+    /// The difference from the previous frame, stored instead of the marks.
     #[serde(skip_serializing_if = "Option::is_none")]
     change: Option<Vec<Splice>>,
     caption: Vec<String>,
@@ -133,7 +133,7 @@ impl Frame {
 const PLAIN: usize = 200_000;
 /// The maximum number of marks in a list of frames.
 const MOST: usize = 1_000_000;
-/// The maximum length of either of two lists of marks for which a minimal difference is computed. The cost grows with
+/// The maximum length of each of two lists of marks for which a minimal difference is computed. The cost grows with
 /// the product of the lengths.
 const COMPARED: usize = 4_000;
 

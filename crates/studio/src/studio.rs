@@ -9,7 +9,7 @@ use snapshots::Verification;
 use std::fmt;
 use std::sync::{Arc, Mutex};
 
-/// The state with which a server handles requests about a workspace.
+/// The state for handling requests about a workspace.
 pub struct Studio {
     pub(crate) workspace: Workspace,
     pub(crate) version: String,

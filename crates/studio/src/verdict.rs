@@ -15,8 +15,8 @@ use validators::{
     PlayerResult, Verdict,
 };
 
-/// The numbers of forward-model calls in the successive searches for a win. The first search decides most levels at
-/// once.
+/// The numbers of forward-model calls in the successive searches for a win. The first search is enough for most
+/// levels.
 const SEARCHES: [u64; 4] = [20_000, 100_000, 400_000, 2_000_000];
 /// The maximum number of calls that a request can specify.
 const MOST_CALLS: u64 = 50_000_000;
@@ -165,7 +165,7 @@ pub(crate) fn look_for_win(
 const WANTED: [Role; 6] =
     [Role::Exit, Role::Key, Role::Collectable, Role::Pushable, Role::Portal, Role::Breakable];
 
-/// Returns the types that the avatar can reach, those that it cannot reach, and the cells where it can be.
+/// Returns the types that the avatar can reach, the types that it cannot reach, and the cells where it can be.
 fn reached(analysis: &Analysis, level: &Level, reach: &Reach, why: &[Value]) -> Value {
     let game = analysis.game();
     let cell = |at: usize| json!([at % level.columns(), at / level.columns()]);

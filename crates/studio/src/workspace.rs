@@ -97,8 +97,8 @@ pub struct Workspace {
     pub released: Option<Arc<Released>>,
     /// The release with which to compare the opened release, and its path.
     pub against: Option<(PathBuf, Arc<Released>)>,
-    /// Additional paths in which to search for releases before the opened one. Each path is a release or a folder of
-    /// releases.
+    /// Additional paths in which to search for the predecessors of the opened release. Each path is a release or a
+    /// folder of releases.
     pub chain: Vec<PathBuf>,
     games: RwLock<Vec<Arc<GameEntry>>>,
 }

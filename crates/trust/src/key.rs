@@ -136,7 +136,7 @@ fn id(keynum: &[u8]) -> String {
 /// Returns `true` if a secret file's content is encrypted.
 ///
 /// # Errors
-/// Returns an error if the content is not that of a secret key file.
+/// Returns an error if the text is not the content of a secret key file.
 pub fn is_encrypted(secret_file: &str) -> Result<bool, TrustError> {
     let bytes = secret_bytes(secret_file)?;
     Ok(bytes[2..4] == *b"Sc")
@@ -166,14 +166,14 @@ impl SecretKey {
     /// Decrypts a secret key from its file's content.
     ///
     /// # Errors
-    /// Returns an error if the content is not that of a secret key file, if the key is encrypted and no
+    /// Returns an error if the text is not the content of a secret key file, if the key is encrypted and no
     /// password is given, or if the password is wrong.
     pub fn open(secret_file: &str, password: Option<&str>) -> Result<SecretKey, TrustError> {
         let bytes = secret_bytes(secret_file)?;
         let failed = |error: minisign::PError| TrustError::Key(error.to_string().to_lowercase());
         let key = match (is_encrypted(secret_file)?, password) {
-            // The file is not parsed as a box, because a box must have a checksum, which the C program omits
-            // from such files.
+            // The file is not parsed as a `SecretKeyBox`, because that type requires a checksum, which the C
+            // program omits from such files.
             (false, _) => minisign::SecretKey::from_bytes(&bytes).map_err(failed)?,
             (true, Some(password)) => SecretKeyBox::from_string(secret_file)
                 .and_then(|found| found.into_secret_key(Some(password.to_owned())))

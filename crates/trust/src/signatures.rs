@@ -170,7 +170,8 @@ impl Signatures {
     /// Returns the newest set in the chain of valid sets that follow a trusted set.
     fn newest(&self, anchor: &KeySet, problems: &mut Vec<String>) -> KeySet {
         let mut newest = anchor.clone();
-        // The loop terminates, because each set has a higher number than the previous set, and its own file.
+        // The loop terminates, because each set has a higher number than the previous set, and a separate
+        // file.
         while let Some(next) = self.sets.get(&format!("keys-{}.json", newest.version.saturating_add(1))) {
             match next {
                 Ok(next) => match newest.admits(next, self.of(&next.file())) {
@@ -344,7 +345,7 @@ impl Signatures {
     }
 }
 
-/// Returns a set that contains a single key, named by its identifier.
+/// Returns a set that contains a single key, whose identifier serves as its name.
 fn single(key: &PublicKey) -> KeySet {
     let keys = vec![NamedKey { name: key.id(), key: key.to_base64() }];
     KeySet { format: 1, version: 1, threshold: 1, keys, revoked: Vec::new(), previous: None }

@@ -20,9 +20,9 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The number of states in the batch with which the speedup is measured.
+/// The number of states in the batch for measuring the speedup.
 const BATCH: usize = 1024;
-/// The number of states in the batch with which the rate is measured. Learners step as many states together.
+/// The number of states in the batch for measuring the rate. Learners step batches of this size.
 const LARGE_BATCH: usize = 4096;
 
 /// Reports the ticks per second, the duration of a copy, and the ratio to the reference, for every game in a
@@ -46,8 +46,9 @@ pub(crate) struct Args {
     /// Also measure the forward-model calls per second of MCTS
     #[arg(long)]
     mcts: bool,
-    /// Also measure the rate of one thread that steps a batch of 4096 states, one tick at a time, and the
-    /// speedup of two threads over one thread for a batch of 1024 states, one tick and 32 ticks at a time
+    /// Also measure the rate of one thread that steps a batch of 4096 states, one tick at a time. For a batch
+    /// of 1024 states, also measure the speedup of two threads over one thread, at one tick and at 32 ticks
+    /// at a time
     #[arg(long)]
     batch: bool,
     /// Also count the instructions per tick, if valgrind is installed
@@ -184,15 +185,16 @@ pub(crate) fn now() -> Instant {
     Instant::now()
 }
 
-/// Returns the ticks per second of CPU time with which one thread steps a batch of [`LARGE_BATCH`] states, in
-/// the best of three runs.
+/// Returns the ticks per second of CPU time that one thread achieves with a batch of [`LARGE_BATCH`] states,
+/// in the best of three runs.
 fn batch_rate(subject: &Subject) -> f64 {
     let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("threads can be started");
     (0..3).map(|_| pool.install(|| batch_speed(subject, LARGE_BATCH, 1)[1])).fold(0.0, f64::max)
 }
 
 /// Returns the speedup of two threads over one thread, for a batch stepped by `ticks` ticks at a time. It is
-/// computed from the best of three runs with each number of threads, which alternate.
+/// computed from the best of three runs per number of threads. Runs with one thread and with two threads
+/// alternate.
 fn speedup(subject: &Subject, ticks: usize) -> f64 {
     let pools = [1, 2].map(|threads| {
         ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
@@ -206,8 +208,8 @@ fn speedup(subject: &Subject, ticks: usize) -> f64 {
     best[1] / best[0]
 }
 
-/// Returns the ticks per second of wall-clock time, and those per second of the calling thread's CPU time.
-/// Both rates include starting new episodes.
+/// Returns the ticks per second of wall-clock time, and the ticks per second of the calling thread's CPU
+/// time. Both rates include starting new episodes.
 fn batch_speed(subject: &Subject, size: usize, ticks: usize) -> [f64; 2] {
     let seed = Seed::from_text(&subject.name);
     let mut batch = Batch::fork(&subject.game, &subject.start, size, seed);

@@ -19,7 +19,8 @@ use std::path::{Path, PathBuf};
 /// them. With a similarity above 0.8, the boards are equal or nearly equal.
 ///
 /// A level is compared with the levels of all other releases, with the levels of earlier games in its own
-/// release, with the corpus, and with the drawings of the kernels that have at least 5 x 7 cells.
+/// release, and with the corpus. It is also compared with those drawings of the kernels that have at least 5
+/// x 7 cells.
 ///
 /// Example: cargo xtask boards-alike releases/2027-01 releases/2027-02
 #[derive(clap::Args)]

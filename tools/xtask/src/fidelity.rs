@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 /// Plays the planners MCTS, OLETS and RHEA in the cells for which episodes of the reference were recorded,
 /// and compares wins, scores and ticks.
 ///
-/// The exit status is 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5%), if
-/// the win rates differ by more than 10 points on average, or if a mean score in aliens or boulderdash
-/// differs by more than 20%.
+/// The exit status is 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5%), or if
+/// the win rates differ by more than 10 points on average. It is also 1 if a mean score in aliens or
+/// boulderdash differs by more than 20%.
 ///
 /// Example: cargo xtask fidelity --games gvgai/games --recorded agents-1000.csv
 #[derive(clap::Args)]
@@ -54,7 +54,7 @@ pub(crate) struct Args {
     jobs: usize,
 }
 
-/// For each recorded agent, the corresponding planner in this suite.
+/// Pairs of a recorded agent and the corresponding planner in this suite.
 const PAIRS: [(&str, &str); 3] = [("sampleMCTS", "mcts"), ("olets", "olets"), ("sampleRHEA", "rhea")];
 /// The tests' false discovery rate.
 const FALSE_DISCOVERIES: f64 = 0.05;
@@ -65,14 +65,15 @@ const SCORE_DIFFERENCE: f64 = 0.20;
 /// The games whose mean scores are compared.
 const SCORED_GAMES: [&str; 2] = ["aliens", "boulderdash"];
 
-/// The figures of an episode that are compared.
+/// An episode's figures, for comparison.
 #[derive(Clone, Copy)]
 struct Result {
     level: usize,
     won: bool,
     ticks: f64,
     score: f64,
-    /// The mean number of calls per decision. How far a search exceeds its budget shows its depth.
+    /// The mean number of calls per decision. The amount by which a search exceeds its budget indicates its
+    /// depth.
     calls: f64,
 }
 

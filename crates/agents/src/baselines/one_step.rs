@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
-    /// The parameters of [`OneStep`]. The default values are those of the reference.
+    /// The parameters of [`OneStep`]. The defaults match the reference.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct OneStepConfig {

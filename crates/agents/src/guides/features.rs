@@ -4,8 +4,7 @@ use engine::analysis::{Analysis, Motion, StateAbstraction};
 use engine::{Direction, SpriteType, State};
 use serde::{Deserialize, Serialize};
 
-/// The number of different amounts that features distinguish for each resource, and the number of different sprite
-/// counts.
+/// The number of values that features distinguish for each resource amount and for each sprite count.
 const AMOUNTS: usize = 16;
 
 /// The atoms that can occur in any state reachable from a start state. An atom is a fact such as "a sprite of this
@@ -74,7 +73,7 @@ impl Features {
         (self.columns * self.rows) as usize + 1
     }
 
-    /// Visits the atoms of a state, possibly some of them twice. Cost: O(sprites of types that change).
+    /// Visits the atoms of a state. Some atoms may be visited twice. Cost: O(sprites of types that change).
     pub(crate) fn each(&self, state: &State, mut atom: impl FnMut(usize)) {
         let block = state.block();
         let cells = self.cells();

@@ -21,13 +21,13 @@ pub(crate) struct GoalGuide {
     analysis: Analysis,
     /// The winning terminations that depend on sprite counts and can be satisfied through play.
     goals: Vec<Goal>,
-    /// The targets for each avatar type, in the order of the analysis.
+    /// The targets for each avatar type, in the order of [`Analysis::avatars`].
     targets: Vec<Targets>,
     /// Pairs of a pushable type and the type onto which it must be pushed.
     pushes: Vec<(SpriteType, SpriteType)>,
 }
 
-/// The roles that a game's types have for avatars of one type.
+/// The roles of a game's types for avatars of one type.
 #[derive(Clone, Debug)]
 struct Targets {
     avatar: SpriteType,
@@ -42,7 +42,7 @@ struct Target {
     needs: Option<(SpriteType, i32)>,
 }
 
-/// Buffers for the search for distances.
+/// Buffers for the distance search.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Distances {
     steps: Vec<u16>,

@@ -11,9 +11,9 @@ pub enum Heuristic {
     /// The reference's `WinScoreHeuristic`: the score, or 1000 for a win and −1000 for a loss, regardless of the
     /// score. In a game with larger scores, it is therefore better to keep playing than to win.
     WinScore,
-    /// The reference's `SimpleStateHeuristic`: the score minus a term for the distance to the nearest portal,
-    /// or to the nearest NPC if there are no portals. Distances are in squared pixels. NPCs attract whether
-    /// or not they are deadly, and each remaining NPC costs 100 points.
+    /// The reference's `SimpleStateHeuristic`: the score minus a term for the distance to the nearest portal, or to
+    /// the nearest NPC if there are no portals. Distances are in squared pixels. NPCs attract the player even if they
+    /// are deadly, and each remaining NPC costs 100 points.
     Simple,
 }
 

@@ -16,14 +16,14 @@ impl<'a> Progress<'a> {
         Progress { analysis, goals: winning.collect() }
     }
 
-    /// Returns the number of sprites that must still disappear or appear for the nearest sprite-counting
-    /// goal, or 0 if there is no such goal.
+    /// Returns how many sprites must still disappear or appear to reach the nearest goal that counts sprites,
+    /// or 0 if there is no such goal.
     pub(crate) fn sprites_missing(&self, state: &State) -> u32 {
         let counted = self.goals.iter().filter(|goal| !matches!(goal.condition, Condition::Tick(_)));
         counted.map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(0)
     }
 
-    /// Returns the number of sprites that must still disappear or appear, or of ticks that must pass, for the
+    /// Returns how many sprites must still disappear or appear, or how many ticks must pass, to reach the
     /// nearest goal.
     pub(crate) fn missing(&self, state: &State) -> u32 {
         self.goals.iter().map(|goal| self.analysis.missing(goal, state)).min().unwrap_or(u32::MAX)

@@ -9,7 +9,7 @@ use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters of [`RandomSearch`]. The default values are those of the reference.
+    /// The parameters of [`RandomSearch`]. The defaults match the reference.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RandomSearchConfig {

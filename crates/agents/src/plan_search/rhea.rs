@@ -11,7 +11,7 @@ use engine::{Action, Game, State};
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The parameters of [`Rhea`]. The default values are those of the reference.
+    /// The parameters of [`Rhea`]. The defaults match the reference.
     #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct RheaConfig {
@@ -19,7 +19,7 @@ base::with_defaults! {
         pub population: usize = 10,
         /// The length of a plan in ticks.
         pub horizon: usize = 10,
-        /// The number of genes to redraw in each child, possibly with the same value.
+        /// The number of genes to redraw in each child. A redrawn gene may get its old value again.
         pub mutations: usize = 1,
         /// The heuristic that evaluates a plan's final state.
         pub heuristic: Heuristic = Heuristic::WinScore,

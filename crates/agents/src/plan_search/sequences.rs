@@ -54,7 +54,7 @@ impl<'a> Sequences<'a> {
         self.alphabet[usize::from(gene)]
     }
 
-    /// Returns the value of the state after a sequence, or after the end of the episode if the episode ends first. If
+    /// Returns the value of the state after a sequence, or of the episode's final state if the episode ends first. If
     /// the budget runs out earlier, returns the value of the state at that point, as the reference does.
     pub(crate) fn value(&mut self, genes: &[Gene], decision: &mut Decision) -> f64 {
         decision.fork_with_random_future(&mut self.copy, self.state);
@@ -78,7 +78,7 @@ impl<'a> Sequences<'a> {
         self.calls >= self.budget || self.state.is_over()
     }
 
-    /// Returns the buffer for the next decision.
+    /// Returns the state buffer, so that the next decision can reuse it.
     pub(crate) fn into_scratch(self) -> State {
         self.copy
     }

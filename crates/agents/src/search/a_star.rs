@@ -11,8 +11,8 @@ use engine::analysis::Analysis;
 /// the number of [`Pushes`] that the state needs. If no pushes are needed, this is a breadth-first search.
 ///
 /// The result is proven only if play is deterministic from the initial state onwards
-/// ([`Analysis::is_deterministic_from`]). Cost: the number of states times the number of actions, at most, in calls.
-/// Each call costs O(size of a state).
+/// ([`Analysis::is_deterministic_from`]). Cost: at most one call per state and action. Each call costs O(size of a
+/// state).
 pub fn a_star(analysis: &Analysis, pushes: &Pushes, start: &State, limits: SearchLimits) -> Searched {
     a_star_until(analysis, pushes, start, limits, &|| false)
 }
@@ -41,7 +41,7 @@ impl Frontier for Buckets {
 
     fn push(&mut self, _: &State, node: NodeId, depth: u32, least: u32, kept: StoredState) {
         // A tick has at most one push, and a win takes at least one more tick. The remaining estimate therefore never
-        // falls by more than one per tick. When a state is expanded, the shortest path to it is therefore known.
+        // falls by more than one per tick, so the shortest path to a state is known when the state is expanded.
         let estimate = (depth + least.max(1)) as usize;
         if self.buckets.len() <= estimate {
             self.buckets.resize_with(estimate + 1, Vec::new);

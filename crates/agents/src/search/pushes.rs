@@ -1,5 +1,5 @@
-//! A lower bound on the number of pushes between a state and a win. For example, a box in a corner can never be
-//! pushed to its goal.
+//! A lower bound on the number of pushes between a state and a win. For example, no number of pushes gets a box from
+//! a corner to its goal.
 
 use base::Seed;
 use engine::analysis::{Analysis, Condition, EffectSummary, Encounter, Motion, Precondition, Reach, Side};
@@ -19,7 +19,7 @@ use smallvec::SmallVec;
 #[derive(Clone, Debug, Default)]
 pub struct Pushes {
     columns: i32,
-    /// The needs of each winning goal. Empty if anything other than pushes can cause a win.
+    /// The pushes that each winning goal needs. Empty if anything other than pushes can cause a win.
     needs: Vec<Need>,
 }
 
@@ -32,7 +32,7 @@ struct Need {
     pushes: Vec<(SpriteType, Vec<u16>)>,
 }
 
-/// The value for a sprite that cannot be helped by any number of pushes.
+/// The value for a sprite for which no number of pushes is enough.
 const NEVER: u16 = u16::MAX;
 
 impl Pushes {
@@ -57,7 +57,7 @@ impl Need {
         let mut needed: SmallVec<[u16; 32]> = SmallVec::new();
         for (stype, pushes) in &self.pushes {
             for rect in state.rects(*stype) {
-                // Nothing is known about a sprite between cells.
+                // There is no bound for a sprite that is not aligned with the cells.
                 let is_aligned = rect.x % block == 0 && rect.y % block == 0;
                 let cell = (rect.y / block).wrapping_mul(columns).wrapping_add(rect.x / block);
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
@@ -131,8 +131,8 @@ fn steps_are_whole(analysis: &Analysis) -> bool {
         })
 }
 
-/// Returns `true` if the level contains an avatar that is missing from the game's analysis, placed by a character
-/// that the game itself does not use.
+/// Returns `true` if the level contains an avatar that is missing from the game's analysis, because the game itself
+/// does not use the character that places the avatar.
 fn has_other_avatar(analysis: &Analysis, level: &Level) -> bool {
     let game = analysis.game();
     let is_other = |stype: &SpriteType| {

@@ -79,7 +79,7 @@ pub(super) struct Tree<'a> {
     progress: Progress<'a>,
     /// The node closest to a win, with its distance.
     nearest: (u32, NodeId),
-    /// The state relative to which packed states are stored.
+    /// The state against which packed states are stored as differences.
     base: State,
     nodes: Vec<Node>,
     met: Met,

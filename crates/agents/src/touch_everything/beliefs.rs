@@ -4,15 +4,15 @@ use engine::Observation;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The context of a contact: the avatar's type and the resources that the avatar holds. For example, a lock is worth
-/// another try with a key.
+/// another try once the avatar holds a key.
 pub(super) type Circumstances = (String, Vec<String>);
 
 /// The experience with one kind of sprite.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Experience {
-    /// The number of survived ticks in contact with this kind.
+    /// The number of ticks that the avatar has survived in contact with this kind of sprite.
     pub survived: u32,
-    /// The number of ticks in which the avatar was lost during contact with this kind.
+    /// The number of ticks in which the avatar was lost during contact with this kind of sprite.
     pub deaths: u32,
     /// The number of contacts after which the score was higher, minus the number of contacts after which the score or
     /// the avatar's health was lower.
@@ -22,9 +22,9 @@ pub struct Experience {
     pub taken: u32,
     /// The number of contacts that pushed a sprite of this kind.
     pub pushed: u32,
-    /// The contexts in which this kind stopped the avatar.
+    /// The contexts in which this kind of sprite stopped the avatar.
     pub(super) blocked: BTreeSet<Circumstances>,
-    /// The contexts of contacts with this kind.
+    /// The contexts of contacts with this kind of sprite.
     pub(super) touched: BTreeSet<Circumstances>,
     /// `true` if the avatar has entered a cell with a sprite of this kind.
     pub entered: bool,
@@ -41,13 +41,13 @@ impl Experience {
         !self.is_deadly() && self.gain >= 0 && (self.gain > 0 || self.taken > 0)
     }
 
-    /// Returns `true` if every contact with this kind has stopped the avatar.
+    /// Returns `true` if every contact with this kind of sprite has stopped the avatar.
     pub fn is_blocking(&self) -> bool {
         !self.blocked.is_empty() && !self.entered
     }
 }
 
-/// The experience with all kinds.
+/// The experience with all kinds of sprites.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Beliefs {
     kinds: BTreeMap<String, Experience>,
@@ -57,15 +57,15 @@ pub(super) struct Beliefs {
 pub(super) struct Passed<'a> {
     pub(super) before: &'a Observation,
     pub(super) now: &'a Observation,
-    /// The touched kinds.
+    /// The kinds of sprites that the avatar has touched.
     pub(super) touched: &'a [String],
     /// The kinds beside the avatar that may have touched it.
     pub(super) beside: &'a [String],
     /// The kinds in front of the avatar that blocked it: the avatar faced them but did not move.
     pub(super) in_the_way: &'a [String],
-    /// The kinds in the entered cell.
+    /// The kinds of sprites in the cell that the avatar has entered.
     pub(super) entered: &'a [String],
-    /// The kinds that are now in the cell behind the entered cell.
+    /// The kinds of sprites that are now in the cell behind the one that the avatar has entered.
     pub(super) pushed: &'a [String],
 }
 

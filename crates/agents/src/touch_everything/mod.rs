@@ -31,7 +31,7 @@ const PUSH_COST: u32 = 5;
 /// A player that does not know the rules. It walks to the nearest kind of sprite that it has not touched yet,
 /// preferring motionless kinds. By observation, it learns which contacts end the game, bring a reward or block the
 /// avatar. It takes rewarding kinds first, avoids deadly kinds, and tries blocking kinds again when the avatar holds
-/// something else.
+/// different resources.
 ///
 /// The player sees only observations, even when used as a [`Planner`]. It uses no other information about the
 /// game or the state, and makes no forward-model calls. Its knowledge persists from level to level, until
@@ -86,7 +86,7 @@ impl TouchEverything {
         self.presses.clear();
     }
 
-    /// Forgets everything, as is necessary before a different game.
+    /// Forgets everything. The player must forget before it plays a different game.
     pub fn forget(&mut self) {
         (self.beliefs, self.last) = (Beliefs::default(), None);
         self.presses.clear();
@@ -303,7 +303,7 @@ fn cell(seen: &Observation) -> Option<usize> {
     Some(row * seen.columns + column)
 }
 
-/// Returns the number of cells that contain each kind.
+/// Returns the number of cells that contain each kind of sprite.
 fn kinds(seen: &Observation) -> BTreeMap<&str, usize> {
     let mut kinds = BTreeMap::new();
     for kind in seen.cells.iter().flatten() {

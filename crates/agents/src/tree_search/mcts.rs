@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 const EPSILON: f64 = 1e-6;
 
 base::with_defaults! {
-    /// The parameters of [`Mcts`]. The default values are those of the reference.
+    /// The parameters of [`Mcts`]. The defaults match the reference.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MctsConfig {
@@ -33,9 +33,9 @@ base::with_defaults! {
 
 impl MctsConfig {
     /// Returns bold parameters, under which wins and losses weigh about as much as points. With the reference's ±10⁷,
-    /// a single loss seen through a node hides all score differences there, so the search avoids every danger instead
-    /// of making progress. On the corpus, the bold parameters win about a quarter more episodes with the same number
-    /// of calls.
+    /// a single loss below a node hides all score differences there, so the search avoids every danger instead of
+    /// making progress. On the corpus, the bold parameters win about a quarter more episodes with the same number of
+    /// calls.
     pub fn bold(depth: u32) -> MctsConfig {
         MctsConfig { depth, win: 10.0, loss: 1.0, ..MctsConfig::default() }
     }
@@ -59,7 +59,7 @@ struct Node {
     children: [u32; WIDTH],
     visits: f64,
     total: f64,
-    /// The minimum and maximum of the results seen through this node.
+    /// The minimum and maximum results of the iterations through this node.
     least: f64,
     greatest: f64,
 }
@@ -129,7 +129,7 @@ impl Mcts {
     }
 
     /// Chooses the branch with the greatest UCT value, which is the mean plus exploration. The mean is normalised to
-    /// the range of results seen through the node.
+    /// the range of the results of the iterations through the node.
     fn select(&self, node: usize, width: usize, choices: &mut Sampler) -> usize {
         let Node { children, visits, least, greatest, .. } = &self.tree[node];
         let logarithm = libm::log(visits + 1.0);

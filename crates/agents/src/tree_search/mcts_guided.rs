@@ -39,7 +39,7 @@ base::with_defaults! {
         /// The weight of the points gained. They are measured relative to the largest gain in this episode's
         /// searches.
         pub score: f64 = 1.0,
-        /// The factor by which each tick before a result discounts that result. The reference uses 1.
+        /// The factor by which each tick of delay discounts a result. The reference uses 1.
         pub discount: f64 = 0.99,
         /// `true` if doing nothing is an action. The reference uses `false`.
         pub nil: bool = true,
@@ -55,7 +55,7 @@ base::with_defaults! {
         /// The weight of progress as measured by the rules, including the distance to useful targets. The
         /// reference uses 0.
         pub guidance: f64 = 1.0,
-        /// `true` to play a win that was found in a deterministic game to the end, without searching again.
+        /// `true` to play a win to the end without searching again, if the win was found in a deterministic game.
         pub commit: bool = true,
     }
 }
@@ -119,7 +119,7 @@ mod pairs {
     }
 }
 
-/// The values of the root, with which results are compared.
+/// The root's values, for comparison with results.
 struct Root {
     score: f64,
     progress: f64,
@@ -212,7 +212,7 @@ impl GuidedMcts {
         (self.played.len() as u64, state.outcome() == Outcome::Won)
     }
 
-    /// Returns a rollout's result, from its points, progress, novelty and outcome.
+    /// Computes a rollout's result from its points, progress, novelty and outcome.
     fn result(&mut self, state: &State, root: &Root, gained: &Gains) -> f64 {
         let config = &self.config;
         self.scale = self.scale.max(gained.value.abs());

@@ -1,9 +1,9 @@
 //! Open-loop expectimax tree search (OLETS), like the reference's `olets`, with a budget in forward-model calls
 //! (`spec/04` §2). OLETS won the reference's competition.
 //!
-//! A node represents a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout. Instead, a new node
-//! is evaluated by its state. The value of a node is a mixture of the results that ended there and the value of its
-//! best child. The tree under the chosen action is reused for the next decision. The method was developed by A.
+//! A node represents a sequence of actions, as in [`Mcts`](crate::Mcts), but there is no rollout. Instead, the state
+//! at each new node is evaluated. The value of a node is a mixture of the results that ended there and the value of
+//! its best child. The tree under the chosen action is reused for the next decision. The method was developed by A.
 //! Couëtoux (2015). See Perez Liebana et al. 2016, "The 2014 general video game playing competition".
 
 use super::branches::{UNEXPANDED, WIDTH, best, blurred, subtree, unexpanded};
@@ -17,7 +17,7 @@ use std::collections::VecDeque;
 const EPSILON: f64 = 1e-4;
 
 base::with_defaults! {
-    /// The parameters of [`Olets`]. The default values are those of the reference.
+    /// The parameters of [`Olets`]. The defaults match the reference.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct OletsConfig {
@@ -47,8 +47,8 @@ pub struct Olets {
     tree: Vec<Node>,
     /// The action that belongs to each branch of the tree.
     actions: Vec<Action>,
-    /// The avatar's positions at the most recent decisions, except the very first. The current position comes
-    /// last.
+    /// The avatar's positions at the most recent decisions, excluding the planner's first decision. The current
+    /// position comes last.
     places: VecDeque<(i32, i32)>,
     /// `true` once a decision has been made.
     begun: bool,

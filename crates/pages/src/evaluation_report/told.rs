@@ -1,4 +1,5 @@
-//! The report's introduction, which states which episodes count and why the others do not.
+//! The report's introduction, which states the number of episodes that are included, and the reasons why the
+//! others are not.
 
 use super::Results;
 use crate::page::words;
@@ -16,7 +17,7 @@ pub(super) struct Told {
     pub(super) subtitle: String,
     /// A summary of the results, followed by a paragraph about the failures of each player.
     pub(super) verdict: Vec<String>,
-    /// Sentences about the numbers of counted episodes, players and levels.
+    /// Sentences about the numbers of included episodes, players and levels.
     pub(super) counted: Vec<String>,
     /// Warnings about limitations of the comparisons.
     pub(super) warnings: Vec<String>,
@@ -78,7 +79,7 @@ fn levels(study: &Study) -> u64 {
     study.games.iter().map(|game| game.levels.len() as u64).sum()
 }
 
-/// Returns a sentence with which to cite the result, if all results come from releases.
+/// Returns a sentence for citing the result, if all results come from releases.
 fn citation(evaluations: &[Evaluation]) -> Option<String> {
     let one = |evaluation: &Evaluation| {
         let root = evaluation.settings.snapshot?;
@@ -116,7 +117,8 @@ fn subtitle(evaluations: &[Evaluation]) -> String {
     )
 }
 
-/// Returns a sentence stating the number of episodes that count, and the reasons why others do not.
+/// Returns a sentence stating the number of episodes that are included, and the reasons why the others are
+/// not.
 fn episodes(study: &Study) -> String {
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count();
     let mut excluded: BTreeMap<String, u64> = BTreeMap::new();

@@ -86,8 +86,8 @@ fn drawn(game: &SurveyedGame) -> Result<Option<Picture>, PageError> {
     picture(&looks, &state, &Style::bare(cell(level, SIDE, 40))).map(Some).map_err(failed)
 }
 
-/// Returns the level, among those with a known win, that is closest to the middle of the game, and its state halfway
-/// through that win. If there are no known wins, returns the middle level in its initial state.
+/// Returns the level that is closest to the middle of the game among the levels with a known win, and its state
+/// halfway through that win. If there are no known wins, returns the middle level in its initial state.
 fn middle(surveyed: &SurveyedGame) -> Option<(&Level, State)> {
     let SurveyedGame { game, levels, report, .. } = surveyed;
     let half = levels.len() / 2;

@@ -19,8 +19,8 @@ const UNCHANGED: u8 = 255;
 /// The duration of the last frame, as a multiple of the other frames' duration.
 const LAST: u16 = 12;
 
-/// The palette is completed in successive passes over the blends. Each number is the squared distance from every
-/// palette entry that a blend must exceed to be added in that pass.
+/// The palette is completed in successive passes over the blends. Each number is a squared distance. A pass adds only
+/// blends that are further than this distance from every palette entry.
 const APART: [u32; 3] = [1200, 300, 0];
 
 /// An encoder that writes equally sized images as the frames of an endlessly repeating GIF.
@@ -141,7 +141,7 @@ impl Animation {
 fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
     let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
     let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
-    // No specimen shows the end of an episode.
+    // The specimens lack the background colours of outcomes, because none of them shows the end of an episode.
     palette.extend(caption::ENDINGS.map(|(_, colour)| colour));
     palette.sort_unstable();
     palette.dedup();

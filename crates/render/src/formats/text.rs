@@ -9,7 +9,7 @@ use engine::{Outcome, SpriteType, State};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// The maximum number of cells to list because they contain several sprites.
+/// The maximum number of cells with several sprites to list.
 const MAX_STACKS: usize = 20;
 
 /// Returns the board as lines of characters. Each cell shows its topmost sprite. A sprite between cells

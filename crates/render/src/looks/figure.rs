@@ -24,8 +24,8 @@ use std::sync::LazyLock;
 ///
 /// Words are nouns in lower case. `@role` selects the figure by role, and `.adjective` selects it by state.
 ///
-/// A drawing is the name of a glyph, or a list of parts. Each part has a paint, a colour, a form, and numbers
-/// in hundredths of a tile. The paint `S` is filled with a dark rim, `F` is filled, and a number is a line of
+/// A drawing is the name of a glyph, or a list of parts. Each part has a paint, a colour, a form, and numbers in
+/// hundredths of a tile. The paint `S` means filled with a dark rim, `F` means filled, and a number means a line of
 /// that width. `=` adds the mirror image.
 const FIGURES: &str = include_str!("art/figures.txt");
 
@@ -35,8 +35,8 @@ const PEOPLE: [&str; 12] = [
     "mage",
 ];
 
-/// The figures that turn into the figure of an open door in the state `open`. Other sprites that can be open
-/// get a mark instead.
+/// The figures that are replaced by an open door in the state `open`. Other sprites that can be open get a mark
+/// instead.
 const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"];
 
 /// The minimum length of a word that is recognised as the end of a longer word.
@@ -47,7 +47,7 @@ const SHORTEST_END: usize = 4;
 pub enum Form {
     /// The drawing of a glyph.
     Glyph(Glyph),
-    /// The drawing in a line of the table of figures.
+    /// The figure on the line with this index in the table of figures.
     Figure(u16),
 }
 

@@ -79,7 +79,7 @@ pub struct Looks {
     prospects: Prospects,
     /// The floor of a composed game.
     floor: Option<SpriteType>,
-    /// For each type, the direction that its signs have according to the rules.
+    /// The direction of each type's signs according to the rules.
     fronts: Vec<Option<Point>>,
 }
 
@@ -115,8 +115,8 @@ impl Looks {
         let visible: Vec<bool> = game.sprite_types().map(|stype| !analysis.facts(stype).hidden).collect();
         let glyphs: Vec<Glyph> = game.sprite_types().map(|stype| Glyph::of(analysis, stype)).collect();
         let mut looks: Vec<Look> = glyphs.iter().map(|&glyph| Look::plain(glyph)).collect();
-        // Only looks that the game can show count, so that types that never occur do not use up variants.
-        // Gates come last, because their looks follow those of their keys.
+        // Only looks that the game can show are counted, so that types that never occur do not use up
+        // variants. Gates come last, because a gate's look follows its key's look.
         let mut seen: Vec<Look> = Vec::new();
         let mut order: Vec<SpriteType> = game.sprite_types().collect();
         order.sort_by_key(|stype| glyphs[stype.index()] == Glyph::Gate);
@@ -181,7 +181,7 @@ impl Looks {
         self.floor
     }
 
-    /// Returns the direction that a sign has according to the rules. The sign's sprites may turn during play.
+    /// Returns a sign's direction according to the rules. The sign's sprites may turn during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }

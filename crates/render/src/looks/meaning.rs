@@ -191,8 +191,8 @@ fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns the meaning of a solid type: the type of which it is a state, or the means of opening or removing
-/// it.
+/// Returns the meaning of a solid type: either the type whose state it represents, or the means of opening or
+/// removing it.
 fn solid(analysis: &Analysis, stype: SpriteType) -> String {
     let own = touches::opened(analysis, stype);
     if let Some(names) = remarks::names(analysis, &own) {
@@ -274,7 +274,7 @@ fn unwon(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns the types that bring something forbidden when they reach sprites of `stype`.
+/// Returns the types that create something forbidden when they reach sprites of `stype`.
 fn spoilers(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let brings = |effect: &EffectSummary| match effect {
         EffectSummary::Make(to) | EffectSummary::Become(to) => analysis.aims().prevent.contains(to),

@@ -74,8 +74,7 @@ pub(super) fn changes_as_a_whole(analysis: &Analysis, stype: SpriteType) -> bool
     analysis.encounters().iter().any(|encounter| encounter.does(changes))
 }
 
-/// Returns the type of which `stype` is a later state. Returns `None` if levels place `stype` directly, because it is
-/// then not only a later state.
+/// Returns the type that turns into `stype`. Returns `None` if levels also place `stype` directly.
 pub(super) fn earlier(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     let possible = |from: SpriteType| analysis.facts(from).possible && !is_avatar(analysis, from);
     let change = |encounter: &Encounter| {

@@ -6,7 +6,7 @@ use super::wins::{self, Terms, counted};
 use engine::analysis::{EffectSummary, Encounter, Harm, Key, Lock, Motion, Precondition, Side};
 use engine::{Analysis, SpriteType};
 
-/// The outcome of a payment that removes the sprite to which it is made.
+/// The outcome of a payment that removes its recipient.
 const REMOVES: &str = "removes it";
 
 /// The maximum number of uses in a note.
@@ -55,8 +55,7 @@ fn can_matter(analysis: &Analysis, lock: &Lock) -> bool {
     (is_goal || lock.guards) && !is_lost
 }
 
-/// Returns the types for which a key-giving type is the only means. Such a type is a goal that the key opens, or
-/// something that bars the way.
+/// Returns the types that can be opened only with a given type's key. Each of them is a goal, or bars the way.
 pub(super) fn needed_for(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     let needed = |lock: &&Lock| {
         (lock.vanishes || matches!(lock.key, Key::Avatar(_)))
@@ -66,7 +65,7 @@ pub(super) fn needed_for(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteTy
     own_locks(analysis, stype).filter(needed).map(|lock| lock.stype).collect()
 }
 
-/// Returns the types from whose harm a resource protects the avatar.
+/// Returns the harmful types against which a resource protects the avatar.
 fn protects_from(analysis: &Analysis, resource: SpriteType) -> Vec<SpriteType> {
     let is_safe = |stype: &SpriteType| {
         let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, *stype));
@@ -78,7 +77,7 @@ fn protects_from(analysis: &Analysis, resource: SpriteType) -> Vec<SpriteType> {
     analysis.game().sprite_types().filter(is_safe).collect()
 }
 
-/// A use of a resource when touching sprites of a type.
+/// A use of a resource when the avatar touches sprites of a type.
 struct Use {
     at: SpriteType,
     spent: bool,
@@ -242,7 +241,8 @@ pub(super) fn theft(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     Some(format!("takes your {}", analysis.game().name(taken.stype)))
 }
 
-/// Returns the resources, each with an amount, any one of which lets the avatar remove sprites of a type.
+/// Returns the resources that let the avatar remove sprites of a type, each with the required amount. Any one of them
+/// is enough.
 pub(super) fn keys(analysis: &Analysis, stype: SpriteType) -> Vec<(SpriteType, i32)> {
     let mut keys = Vec::new();
     for (encounter, own) in meetings(analysis, stype) {
@@ -266,8 +266,8 @@ pub(super) fn is_deadly(analysis: &Analysis, encounter: &Encounter, own: Side) -
     })
 }
 
-/// Returns the resources on which all harm by contact with a type depends, as the condition of the harm.
-/// Returns `None` if the harm also depends on something else.
+/// Returns the resource condition on which all harm by contact with a type depends. Returns `None` if the harm also
+/// depends on something else.
 pub(super) fn deadly_terms(analysis: &Analysis, avatar: SpriteType, stype: SpriteType) -> Option<Terms> {
     let wounds = |effect: &EffectSummary| matches!(effect, EffectSummary::Health { by, .. } if *by < 0);
     let is_deadly =

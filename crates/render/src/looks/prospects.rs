@@ -110,7 +110,7 @@ impl Prospects {
     }
 }
 
-/// Returns `true` if a type's line specifies a probability but no total.
+/// Returns `true` if a type's line has the parameter `prob` but not the parameter `total`.
 fn is_left_to_chance(game: &Game, stype: SpriteType) -> bool {
     let lines = game.description().sprite_lines();
     let line = lines.iter().find(|(_, line)| line.name.text == game.name(stype));

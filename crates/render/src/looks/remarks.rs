@@ -294,7 +294,7 @@ pub(super) fn is_socket_of_win(analysis: &Analysis, stype: SpriteType) -> bool {
     !pushed_into(analysis, stype, |of, sink| wins_by_push(analysis, of, sink)).is_empty()
 }
 
-/// Returns the types that can be pushed onto the type, and whose sink there is wanted.
+/// Returns the types that can be pushed onto `stype`, if `wanted` accepts the collision.
 fn pushed_into(
     analysis: &Analysis,
     stype: SpriteType,

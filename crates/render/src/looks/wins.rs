@@ -191,8 +191,8 @@ fn loses_without(analysis: &Analysis, stype: SpriteType, to: Option<SpriteType>)
     is_to_keep(analysis, stype) && analysis.goals().iter().any(loses)
 }
 
-/// Returns `true` unless a win requires removing sprites of `to`, or their appearance loses the game. Turning
-/// other sprites into `to` then counts as removing them.
+/// Returns `true` if turning other sprites into `to` counts as removing them. This is not the case if a win requires
+/// removing sprites of `to`, or if their appearance loses the game.
 pub(super) fn goes(analysis: &Analysis, to: SpriteType) -> bool {
     !analysis.aims().remove.contains(&to) && !analysis.aims().prevent.contains(&to)
 }

@@ -22,8 +22,8 @@ pub struct ReleaseCard {
     pub levels: u64,
     /// The number of games from generators.
     pub new_games: u64,
-    /// The requested and achieved counts. Difficulties count levels as measured during selection, and may be off by
-    /// one level. Quotas count games.
+    /// The requested and achieved counts. For difficulties, the counts are levels as measured during selection, and
+    /// may be off by one. For quotas, the counts are games.
     pub planned: Vec<Bin>,
     /// The number of levels of each difficulty, as measured by the ladders on the games' cards; empty if difficulty
     /// was not measured.
@@ -37,7 +37,8 @@ pub struct ReleaseCard {
     pub avatars: BTreeMap<String, u64>,
     /// The number of games per origin, which is the name of a generator or `corpus`.
     pub generators: BTreeMap<String, u64>,
-    /// The ladder players' results across all games; empty if no ladder was played.
+    /// The results of the ladder's players (players of increasing strength) across all games; empty if no ladder was
+    /// played.
     pub ladder: Vec<Rung>,
     /// The novelty of the games.
     pub novelty: Novelty,
@@ -57,10 +58,10 @@ pub struct ReleaseCard {
 pub struct Rung {
     /// The player's win rate.
     pub rate: RungRate,
-    /// The smallest difference in win rate between two releases of this size that can be detected at the 5%
-    /// level with 80% power.
+    /// The smallest difference in win rate that can be detected between two releases of this size, at the 5% level
+    /// with 80% power.
     pub detectable: Option<f64>,
-    /// The smallest detectable difference in win rate between two releases of `MONTH` such games each.
+    /// The smallest difference in win rate that can be detected between two releases of `MONTH` such games each.
     pub detectable_month: Option<f64>,
 }
 
@@ -75,7 +76,7 @@ pub struct Novelty {
     pub ancestors: Vec<String>,
     /// The number of new games in all previous releases.
     pub known_games: u64,
-    /// The number of canonical items in the previous releases' corpus games.
+    /// The number of canonical items (rules and level) in the corpus games of the previous releases.
     pub known_items: u64,
     /// The distance from each new game to its nearest neighbour in the release, from 0 (the same rules) to 1
     /// (nothing in common).

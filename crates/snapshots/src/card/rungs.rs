@@ -43,8 +43,8 @@ pub struct RungRate {
 }
 
 impl RungRate {
-    /// Returns the smallest difference in win rate between two releases of `games` such games each that a two-sided
-    /// test at the 5% level detects with 80% power. Returns `None` if there are no games, or if their variance is
+    /// Returns the smallest difference in win rate that a two-sided test at the 5% level detects with 80% power
+    /// between two releases of `games` such games each. Returns `None` if there are no games, or if their variance is
     /// unknown.
     ///
     /// The estimate assumes that both releases have the same variance and number of levels per game as the
@@ -125,8 +125,7 @@ impl Clustered {
     }
 }
 
-/// Returns the difference between two rates, each given with its interval, and the interval of the
-/// difference.
+/// Returns the difference between two rates, with its interval. Each rate is given with its interval.
 fn difference((ours, own): (f64, [f64; 2]), (theirs, other): (f64, [f64; 2])) -> (f64, [f64; 2]) {
     let below = apart(ours - own[0], other[1] - theirs);
     let above = apart(own[1] - ours, theirs - other[0]);
@@ -138,8 +137,8 @@ fn apart(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Returns each ladder player's win rate over some games: first the rungs from weakest to strongest, in the first
-/// ladder's order, and then the held-out players. Levels without a ladder are skipped.
+/// Returns each ladder player's win rate over some games. The players on the ladder come first, from weakest to
+/// strongest in the first ladder's order, followed by the held-out players. Levels without a ladder are skipped.
 pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());
     let mut players: Vec<(&PlayerResult, bool)> = Vec::new();
@@ -183,13 +182,13 @@ pub struct RungDifference {
     pub difference: f64,
     /// The 95% interval of the difference, clustered by game.
     pub interval: [f64; 2],
-    /// The smallest difference between two releases of these sizes that a two-sided test at the 5% level detects with
-    /// 80% power; `None` if all games of either release have the same rate.
+    /// The smallest difference that a two-sided test at the 5% level detects with 80% power between two releases of
+    /// these sizes; `None` if all games of either release have the same rate.
     pub detectable: Option<f64>,
 }
 
 impl RungDifference {
-    /// Returns `true` if the interval contains 0, so that the player may be equally good in both releases.
+    /// Returns `true` if the interval contains 0, which means that the player may be equally good in both releases.
     pub fn includes_zero(&self) -> bool {
         self.interval[0] <= 0.0 && self.interval[1] >= 0.0
     }
@@ -232,8 +231,8 @@ pub(crate) mod tests {
         PlayerResult { player: player.to_owned(), looks_ahead, rate, win_ticks: None, reward: None }
     }
 
-    /// Returns a game card on which `random` and the held-out `olets:9` win the given numbers out of ten
-    /// episodes on each level.
+    /// Returns a game card with ten episodes per player and level. `wins` states the wins of `random` and of the
+    /// held-out `olets:9` on each level.
     pub(crate) fn card(id: &str, wins: &[[u64; 2]]) -> Card {
         let level = |[random, olets]: &[u64; 2]| LevelCard {
             file: "lvl0.txt".to_owned(),
@@ -276,7 +275,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// Returns the cards of forty games with three levels each, in which every fourth game is always won.
+    /// Returns the cards of forty games with three levels each. Every fourth game is always won.
     fn quarter() -> Vec<Card> {
         let wins = |game: u64| [if game.is_multiple_of(4) { 10 } else { 0 }, 10];
         (0..40).map(|game| card(&format!("g{game}"), &[wins(game); 3])).collect()
@@ -289,13 +288,14 @@ pub(crate) mod tests {
         assert_eq!((random.player.as_str(), random.held_out, random.looks_ahead), ("random", false, false));
         assert_eq!((random.games, random.levels, random.plays, random.wins), (40, 120, 1200, 300));
         assert_eq!(random.mean, 0.25);
-        // The interval is as wide as one from 40 trials with rate 0.25, not 120: ±13 points.
+        // The interval is as wide as an interval from 40 trials at a rate of 0.25 (±13 points), not one from 120
+        // trials.
         let error = random.error.unwrap();
         assert!((error - (0.25 * 0.75 / 39.0_f64).sqrt()).abs() < 1e-12, "{error}");
         let [low, high] = random.interval;
         assert!((low - 0.116).abs() < 0.03 && (high - 0.384).abs() < 0.03, "{low} to {high}");
         assert_eq!((olets.player.as_str(), olets.held_out, olets.looks_ahead), ("olets:9", true, true));
-        // A rate of 1 in the sample does not prove a rate of 1.
+        // A rate of 1 in the sample does not prove that the true rate is 1.
         let trials = statistics::rate_over_games(&[(1, 1); 40], 0.95).unwrap().interval;
         assert_eq!((olets.mean, olets.interval, olets.error), (1.0, [trials.low, 1.0], None));
         assert!((trials.low - 0.907).abs() < 1e-3, "{trials:?}");

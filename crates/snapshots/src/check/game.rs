@@ -20,8 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The maximum size of a `card.json`, in bytes: 1 MiB. The card of a game with twenty levels takes up a tenth of
 /// that.
 const CARD_LIMIT: u64 = 1 << 20;
-/// The maximum number of patterns on a card. A generated game has about ten patterns, in addition to those of its
-/// edits.
+/// The maximum number of patterns on a card. A generated game has about ten patterns, plus the patterns of its edits.
 const MAX_PATTERNS: usize = 1024;
 
 /// The relative paths of the files in a game's folder.
@@ -34,7 +33,7 @@ pub(super) struct GameCheck {
     pub(super) levels: usize,
     /// The number of witnesses that replayed to a win.
     pub(super) replayed: usize,
-    /// The paths of the withheld witnesses of a game in a sealed release.
+    /// In a sealed release, the paths of the game's withheld witnesses.
     pub(super) held: Vec<String>,
     /// The card, if it is valid.
     pub(super) card: Option<Card>,
@@ -50,8 +49,8 @@ impl Checking<'_> {
         folders.iter().map(|(folder, files)| self.game(folder, files, &mut seen)).collect()
     }
 
-    /// Returns the problems with those texts and facts on a card that follow from the rules. Texts can be compared
-    /// only if this version would word them identically.
+    /// Returns the problems with the texts and facts on a card that follow from the rules. Texts can be compared only
+    /// if this version would word them identically.
     fn of_the_rules(&self, card: &Card, game: &Game) -> Vec<String> {
         let version = (self.manifest.generation, self.manifest.semantics);
         if version != (generators::GENERATION, engine::SEMANTICS) {

@@ -249,7 +249,7 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     let known = match manifest.recipe.get("known").map(|known| serde_json::from_value(known.clone())) {
         None => Known::default(),
         Some(Ok(known)) => known,
-        // The record of a different generation may contain more.
+        // In a different generation, the record may contain additional data.
         Some(Err(_)) if manifest.generation != generators::GENERATION => return,
         Some(Err(error)) => return wrong(&format!("is malformed ({error})")),
     };

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 /// The maximum size of a list, in bytes.
 pub(crate) const LIST_LIMIT: u64 = MANIFEST_LIMIT;
 
-/// The list of the files in one part.
+/// The list of the files in one withheld part.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct HeldList {
@@ -34,7 +34,7 @@ struct HeldList {
 /// paths and contents. The caller must recompute the manifest's root.
 ///
 /// # Errors
-/// Returns an error if a list is larger than a manifest's size limit.
+/// Returns an error if a list exceeds the size limit for manifests.
 pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String, Vec<u8>)>, SnapshotError> {
     let items = std::mem::take(&mut manifest.items);
     let (mut held, public): (Vec<Item>, Vec<Item>) =
@@ -59,7 +59,7 @@ pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String,
     Ok(lists)
 }
 
-/// Adds the files in a part's list to the withheld files known to a manifest.
+/// Adds the files in a part's list to the manifest's known withheld files.
 ///
 /// # Errors
 /// Returns an error if the list differs from the committed one, or contains a file that is not allowed in it.
@@ -92,8 +92,8 @@ pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) ->
     Ok(())
 }
 
-/// Returns a sentence about the salt in a part's list if it is not derived from the secret; `None` if the salt is
-/// correct.
+/// Returns a sentence about the salt in a part's list if the salt is not derived from the secret; `None` if the salt
+/// is correct.
 pub(crate) fn salt_flaw(part: HeldPart, bytes: &[u8], secret: &Secret) -> Option<String> {
     let list = serde_json::from_slice::<HeldList>(bytes).ok()?;
     (list.salt != secret.salt(part))

@@ -63,7 +63,7 @@ pub fn check_integrity(root: &Path) -> Result<Integrity, SnapshotError> {
     Ok(Integrity { manifest, problems, beside })
 }
 
-/// Replaces the error for a manifest that cannot be read with one about the release at `root`.
+/// Replaces the error for an unreadable manifest with an error about the release at `root`.
 fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     let path = root.to_path_buf();
     match error {
@@ -80,7 +80,7 @@ fn absent(error: SnapshotError, root: &Path) -> SnapshotError {
     }
 }
 
-/// Returns the problems with a readable manifest: with its text, its root, or its checksum.
+/// Returns the problems with the text, the root and the checksum of a readable manifest.
 pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec<Problem>, SnapshotError> {
     let problem = |flaw| Problem { path: MANIFEST_FILE.into(), flaw };
     let mut problems = Vec::new();
@@ -96,8 +96,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads the lists of withheld files that exist, and returns the problems with them. The list of published coin wins
-/// may exist without the list of all other files, but not vice versa.
+/// Reads the lists of withheld files that exist, and returns the problems with them. The list of the wins selected by
+/// coin tosses may exist without the list of all other files, but not vice versa.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,
@@ -158,8 +158,8 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    // Before the reveal, a sealed release withholds either all of its witnesses or none. If coins have decided which
-    // wins to publish, the published wins may already be present. Hidden files are not expected.
+    // Before the reveal, a sealed release withholds either all of its witnesses or none. If coin tosses have selected
+    // the wins to publish, those wins may already be present. Hidden files are not expected.
     let is_listed = manifest.kind == ReleaseKind::Sealed && manifest.withheld.is_none();
     let is_held = |path: &str| is_listed && path.starts_with(HELD);
     let stays = |path: &str| is_held(path) && !is_solution(path);

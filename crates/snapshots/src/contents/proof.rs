@@ -1,4 +1,5 @@
-//! Inclusion proofs, which show that a released file or game is under a root, without the rest of the release.
+//! Inclusion proofs. A proof shows that a file or game belongs to the release with a given root. The rest of the
+//! release is not needed.
 //!
 //! A proof is a small file in canonical JSON. It contains no secrets and need not be trusted: the verifier
 //! trusts only a root from a different source.
@@ -36,7 +37,7 @@ pub enum ProofError {
         /// The nearest existing ID.
         near: Option<String>,
     },
-    /// The item is under the root only indirectly, through a list of withheld files.
+    /// The root covers the item only indirectly, through a list of withheld files.
     #[error("`{}` is covered by the root only through the list of withheld files, so it has no proof of its \
              own: prove `{list}`, which contains its digest", id.escape_debug())]
     Listed {
@@ -205,8 +206,8 @@ impl ItemProof {
         Ok(proof)
     }
 
-    /// Returns every reason why the item `id` is not under `root` with the given files; empty if the item is under
-    /// `root`. Each reason names a file and its digests. `content` returns the digest of the file at a path, or
+    /// Returns every reason why the item `id` is not covered by `root`, given the item's files; empty if `root`
+    /// covers it. Each reason names a file and its digests. `content` returns the digest of the file at a path, or
     /// `None` if there is no such file.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 use engine::{Divergence, Episode, Game, Level, MAX_TICKS, Outcome, Watch};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The bound on the work of a release's replays. The unit of work is that of the engine's limit on one tick
+/// The bound on the work of a release's replays. The unit of work is the same as in the engine's limit on one tick
 /// ([`MAX_WORK`](engine::MAX_WORK)): visiting a sprite or a cell costs one unit. One core does about 50 to 200
 /// million units per second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,8 +15,8 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// 2³¹ units plus 2²¹ units per level, which is 10 to 60 seconds on one core. 2²¹ units allow 455 ticks of a
-    /// quiet game.
+    /// 2³¹ units plus 2²¹ units per level, which is 10 to 60 seconds on one core. 2²¹ units allow 455 ticks of a game
+    /// in which little happens.
     pub const RELEASE: Bounds = Bounds { work: 1 << 31, work_per_level: 1 << 21 };
 
     /// Returns the maximum number of units for a release with the given number of levels.

@@ -10,7 +10,7 @@ pub(crate) fn refuse_unfinished(root: &Path) -> Result<(), SnapshotError> {
         std::io::ErrorKind::NotFound => SnapshotError::NotASnapshot(root.to_path_buf()),
         _ => SnapshotError::Io { action: "examine", path: root.to_path_buf(), source },
     })?;
-    // For distant ancestors, the name alone is weak evidence, so a draft is required.
+    // For folders further up, the name alone is weak evidence, so the folder must also contain a draft.
     let is_draft = |folder: &Path| folder.join(".lock").exists() && folder.join("tree").exists();
     let unfinished = real.ancestors().enumerate().any(|(above, folder)| {
         folder.extension().is_some_and(|end| end == "partial") && (above < 2 || is_draft(folder))

@@ -66,8 +66,8 @@ struct Entry {
 }
 
 impl Changes {
-    /// Pairs the entries of two releases: first entries with equal texts, then entries with equal forms. Each
-    /// entry is paired with its first unpaired candidate.
+    /// Pairs the entries of two releases. Entries with equal texts are paired first, and then entries that are equal
+    /// apart from the theme. Each entry is paired with its first unpaired candidate.
     fn of(before: &[Entry], after: &[Entry]) -> Changes {
         let mut was: Vec<Option<(Status, usize)>> = vec![None; after.len()];
         let mut taken = vec![false; before.len()];

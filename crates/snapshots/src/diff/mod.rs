@@ -38,7 +38,7 @@ pub struct Side {
     pub levels: usize,
     /// The version of the engine semantics under which the release was minted.
     pub semantics: u32,
-    /// The generation of the generators with which the release was minted.
+    /// The generation of the generators that minted the release.
     pub generation: u32,
 }
 

@@ -81,7 +81,7 @@ pub struct NumberShift {
     pub distance: Option<f64>,
     /// The p-value: the fraction of random deals whose distance is at least as large as the observed one.
     pub p: Option<f64>,
-    /// The number of levels that have no number because they were not measured.
+    /// The number of levels that have no value because they were not measured.
     #[serde(skip_serializing_if = "Unmeasured::is_none")]
     pub unmeasured: Unmeasured,
 }
@@ -91,7 +91,7 @@ type Values = fn(&Compared<'_>) -> Vec<String>;
 
 /// The name of the distribution of difficulty labels.
 pub(super) const DIFFICULTY: &str = "difficulty of levels";
-/// The name of the distribution of eases.
+/// The name of the distribution of level ease.
 const EASE: &str = "ease of a level";
 
 const SHIFTS: &[(&str, Values)] = &[
@@ -202,7 +202,7 @@ impl NumberShift {
             let (mut below, mut most) = ([0_u32; 2], 0.0_f64);
             for (at, (number, game)) in numbers.iter().enumerate() {
                 below[usize::from(sides[*game])] += 1;
-                // Among equal numbers, the distance is computed only at the last, because its count includes all of
+                // Among equal numbers, the distance is computed only at the last one, where the count includes all of
                 // them.
                 if numbers.get(at + 1).is_none_or(|(next, _)| next != number) {
                     let [one, other] = [0, 1].map(|side| f64::from(below[side]) / f64::from(all[side]));

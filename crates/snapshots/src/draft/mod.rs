@@ -3,7 +3,7 @@
 //! Unfinished work is stored next to its destination, and published by a single `rename` within the file system:
 //!
 //! ```text
-//! releases/2026-12.partial/.lock    held from creation until after the rename; its content marks the folder as ours
+//! releases/2026-12.partial/.lock    locked from creation until after the rename; its content identifies a draft
 //! releases/2026-12.partial/tree/    becomes releases/2026-12
 //! releases/2026-12.partial/jobs/    finished jobs, kept after an interruption for `Draft::resume`
 //! ```
@@ -487,8 +487,8 @@ pub(crate) mod tests {
         if fs::read("orders").ok().as_deref() != Some(b"write until killed") {
             return;
         }
-        // If the other test ends without killing this process, the input ends too, and the process must not
-        // keep running.
+        // If the other test ends without killing this process, this process's input ends as well, and the process
+        // must exit.
         thread::spawn(|| {
             io::copy(&mut io::stdin(), &mut io::sink()).expect("readable");
             std::process::exit(1);

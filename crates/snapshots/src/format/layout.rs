@@ -21,7 +21,7 @@ pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> Strin
     }
 }
 
-/// The folder for withheld siblings.
+/// The folder for the withheld siblings of games.
 pub(crate) const SIBLINGS: &str = "held/siblings/";
 
 /// Returns the path of a file in a game's withheld sibling. `game` is the name of the game's folder in
@@ -35,8 +35,8 @@ pub(crate) fn second_path(game: &str, level: usize) -> String {
     format!("{HELD}seconds/{game}/lvl{level}.json")
 }
 
-/// Returns `true` if a withheld file belongs to the published coin wins, which can be revealed before the other
-/// files.
+/// Returns `true` if a withheld file is a win that a coin toss selected for publication. Such wins can be revealed
+/// before the other withheld files.
 pub(crate) fn is_solution(path: &str) -> bool {
     path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)
 }

@@ -86,7 +86,7 @@ pub enum Flaw {
     /// A file is not a list of withheld files, although its digest matches the commitment.
     #[error("not a list of withheld files ({0})")]
     NotAList(String),
-    /// An archive entry, or the archive itself, does not have the form in which archives are packed.
+    /// An archive entry, or the archive itself, does not have the form that packing gives to archives.
     #[error("different from the packed form ({0})")]
     NotAsPacked(String),
     /// The stated checksum differs from the checksum computed from the stated root, lock file and sizes.

@@ -49,13 +49,13 @@ pub enum AncestryError {
 /// The games and levels of a release, which later releases must not repeat.
 #[derive(Debug, Default)]
 pub(crate) struct Holdings {
-    /// The rules of the release's generated games, with all names removed, in item order.
+    /// The rules of the release's generated games, with all names removed, in the order of the manifest's items.
     games: Vec<String>,
     /// The mechanics, endings and couplings of the release's invented games.
     census: Census,
-    /// The forms of the generated games, with the folder of each game.
+    /// The digests of the generated games' forms, each with the game's folder.
     pub(crate) forms: BTreeMap<Digest, String>,
-    /// The canonical items of the release's corpus games, with the path of each level.
+    /// The digests of the canonical items in the release's corpus games, each with the path of its level.
     pub(crate) items: BTreeMap<Digest, String>,
 }
 
@@ -100,8 +100,7 @@ impl Holdings {
     /// # Errors
     /// Returns an error if the manifest's own `known` field has a different version's format.
     pub(crate) fn known_after(&self, manifest: &Manifest) -> Result<Known, AncestryError> {
-        // Only this part of the recipe is read, so that it is possible to follow recipes that contain keys of other
-        // versions.
+        // Only this part of the recipe is read, so that recipes with keys from other versions can be followed.
         let mut known: Known = match manifest.recipe.get("known") {
             None => Known::default(),
             Some(known) => serde_json::from_value(known.clone()).map_err(AncestryError::Unreadable)?,

@@ -73,7 +73,6 @@ pub struct Chain {
 /// - every stated root is found, up to a release that does not state one;
 /// - no two releases follow the same release in the chain, because the chain would then have two histories;
 /// - no release follows a missing release, because the missing release could belong to a second history;
-///   release follows a missing release, because the missing release could belong to a second history;
 /// - each release in the chain lists the content of its predecessors, and repeats no part of that content.
 ///
 /// Cost: one pass over the files of all releases and a second pass over the files of the chain, plus a few

@@ -1,5 +1,5 @@
-//! Converts generated games into a job's games: adds the ladder results to publish, tiers, and the paths to
-//! the witnesses' seeds.
+//! Converts generated games into a job's games by adding the tiers, the ladder results for publication, and the seed
+//! paths of the witnesses.
 
 use crate::sections::frozen::FrozenGame;
 use base::SeedPath;
@@ -8,9 +8,9 @@ use forge::games::MadeGame;
 use validators::{Case, CheckedCriteria, Demand, shorter_win};
 
 impl FrozenGame {
-    /// Converts a generated game. `criteria` are the criteria of its judges. If they include a ladder, the ladder's
-    /// players play again with fresh seeds, because the episodes that led to a level's acceptance are biased by luck.
-    /// If `measured` is set, the tier of every level without a tier is measured.
+    /// Converts a generated game. `criteria` are the criteria by which it was judged. If they include a ladder, the
+    /// ladder's players play again with fresh seeds, because the episodes that led to a level's acceptance are biased
+    /// by luck. If `measured` is set, the tier of every level without a tier is measured.
     pub(super) fn of(mut made: MadeGame, criteria: &CheckedCriteria, measured: bool) -> FrozenGame {
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
         let difficulties = ladders.map(|ladder| ladder.difficulty).collect();

@@ -59,8 +59,8 @@ pub struct JobFolder {
     is_secret: bool,
 }
 
-/// The file that states the plan to which the results belong. It prevents results from a different recipe from being
-/// discarded by mistake.
+/// The file that identifies the results' plan. It prevents results from a different recipe from being discarded by
+/// mistake.
 const WHOSE: &str = "plan.txt";
 
 /// The maximum size of a result file, in bytes: 64 MiB.

@@ -425,7 +425,7 @@ mod tests {
         );
     }
 
-    /// A commitment covers the recipe, so its numbers cannot be raised afterwards.
+    /// A commitment covers the recipe, so the recipe's numbers cannot be raised afterwards.
     #[test]
     fn a_sealed_recipe_that_falls_short_is_committed_to_again() {
         let hopeless = FETCH.replace("gem avatar > killSprite scoreChange=1", "avatar gem > stepBack");

@@ -84,7 +84,7 @@ pub(super) struct Contender {
     part: Part,
     pub(super) is_new: bool,
     /// The titles and casts of the game and its sibling. Selection treats the game and its sibling identically, so
-    /// that its choice reveals nothing about the secret coin that decides which of them is published.
+    /// the selected games reveal nothing about the secret coin toss that decides which of the two is published.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
@@ -182,8 +182,8 @@ const STARTS: u64 = 24;
 /// duplicate titles.
 type Miss = (i64, i64, i64);
 
-/// Recommends the next step: either a small change to the recipe that preserves finished jobs, or another change that
-/// does not. A sealed recipe cannot be changed at all, because the commitment covers it.
+/// Recommends the next step: either a small change to the recipe that preserves finished jobs, or a different change
+/// that does not. A sealed recipe cannot be changed at all, because the commitment covers it.
 fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     if recipe.commitment.is_some() {
         return format!(

@@ -276,7 +276,7 @@ impl Shards {
     /// own levels.
     ///
     /// Only minting again can show that the seed produces these games, and that the judges measured these figures.
-    /// Costs a replay of every witness, on all threads of the current rayon pool.
+    /// Cost: a replay of every witness, on all threads of the current rayon pool.
     ///
     /// # Errors
     /// Returns an error if a shard or a job's result differs from its minted form, or if a file system operation

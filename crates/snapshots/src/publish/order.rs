@@ -19,7 +19,7 @@ use crate::sections::marks::MarkPlayers;
 use base::Digest;
 use std::path::{Path, PathBuf};
 
-/// The resources for minting that a program provides.
+/// The resources that a program provides for minting.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
     /// The hand-written corpus games.
@@ -98,7 +98,7 @@ impl Order {
         self.prepare(tools, progress)?.mint(progress)
     }
 
-    /// Returns `true` if the folder contains the result of this plan, or of the plan's requested shard.
+    /// Returns `true` if the folder contains this plan's release or, if the order requests a shard, that shard.
     fn is_complete(&self, plan: &Plan<'_>) -> Result<bool, SnapshotError> {
         if let Some(shard) = self.shard {
             return shard.is_whole(plan, &self.out);

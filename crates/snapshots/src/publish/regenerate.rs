@@ -137,12 +137,13 @@ impl Regeneration {
         Ok(Regeneration { root: root.to_path_buf(), manifest, bytes, recipe, secret })
     }
 
-    /// Returns the maximum number of forward-model calls per level that the recipe allows, in win searches and in the
-    /// episodes of its players.
+    /// Returns the maximum number of forward-model calls per level that the recipe allows, in win searches and in
+    /// players' episodes.
     pub fn calls_per_level(&self) -> u64 {
         let of = |criteria: &Criteria| {
             let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
-            // Every player of a ladder may play one round, with the maximum patience, before all budgets are spent.
+            // Every player on a ladder may play one round of episodes of the maximum length before all budgets are
+            // spent.
             let names = criteria.ladder.iter().chain(&criteria.held_out);
             let names = names.filter(|_| criteria.includes(Criterion::Skill));
             let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());
@@ -186,8 +187,8 @@ impl Regeneration {
         Ok(Regenerated { minted, compared })
     }
 
-    /// Compares the release with the one in the folder `out`, if the latter is complete and was minted by this
-    /// version from the same recipe. Returns the manifest in `out` and the comparison. Does not mint anything.
+    /// Compares the release with the release in the folder `out`, if the one in `out` is complete and was minted by
+    /// this version from the same recipe. Returns the manifest in `out` and the comparison. Does not mint anything.
     ///
     /// # Errors
     /// Returns an error if `out` contains an unreadable manifest, or if a file system operation fails.

@@ -26,7 +26,7 @@ pub enum RevealError {
     /// The release is open, or has no commitment.
     #[error("`{0}` is not sealed: there is nothing to reveal")]
     Open(String),
-    /// The release has no wins that were chosen by coins.
+    /// The release has no wins that were selected by coin tosses.
     #[error(
         "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are \
          revealed with everything else, so omit --solutions"
@@ -41,8 +41,8 @@ pub enum RevealError {
 }
 
 /// Merges the two parts of a sealed release (`public` and `held`) and the papers into a draft, and returns the
-/// manifest of the public part. The files must be exactly those under that manifest's root. The secret must match the
-/// commitment, and the witnesses must have been played under that secret.
+/// manifest of the public part. The files must be exactly the files that this manifest's root covers. The secret must
+/// match the commitment, and the witnesses must have been played under that secret.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
@@ -120,7 +120,8 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     Ok(manifest)
 }
 
-/// Returns `true` if a withheld file is revealed early, together with the published coin wins.
+/// Returns `true` if a withheld file can be revealed early: the wins selected by coin tosses, and the list of these
+/// wins.
 fn is_early(path: &str) -> bool {
     is_solution(path) || path == HeldPart::Solutions.list()
 }

@@ -17,12 +17,12 @@ base::with_defaults! {
         pub levels: u32 = 3,
         /// The maximum number of attempts to make a set of levels for one game.
         pub game_tries: u32 = 8,
-        /// The maximum number of attempts to make the level for one position.
+        /// The maximum number of attempts to make each level.
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.5,
-        /// The criteria for the levels of corpus games, if they differ from those for new games. There are fewer
-        /// hand-made games than games that can be generated.
+        /// The criteria for the levels of corpus games, if they differ from the criteria for new games. Hand-made
+        /// games are scarcer than games that can be generated.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub criteria: Option<Criteria> = None,
     }
@@ -39,7 +39,7 @@ base::with_defaults! {
         pub levels: u32 = 3,
         /// The maximum number of attempts to make a game for one candidate.
         pub game_tries: u32 = 48,
-        /// The maximum number of attempts to make the level for one position.
+        /// The maximum number of attempts to make each level.
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
@@ -51,7 +51,7 @@ base::with_defaults! {
         pub kinds: Vec<Kind> = Vec::new(),
         /// The minimum number of interactions in a game.
         pub least_interactions: usize = 7,
-        /// The minimum number of different interactions that the wins on all levels of a game execute.
+        /// The minimum number of different interactions that the wins on a game's levels execute in total.
         pub least_mechanics: usize = 3,
     }
 }
@@ -67,7 +67,7 @@ base::with_defaults! {
         pub levels: u32 = 3,
         /// The maximum number of attempts at a rule set for one candidate.
         pub game_tries: u32 = 16,
-        /// The maximum number of searches for the board for one position.
+        /// The maximum number of searches for each level's board.
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.5,

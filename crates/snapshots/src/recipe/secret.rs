@@ -47,7 +47,7 @@ const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 const DISTINCT: usize = 17;
 
 impl Secret {
-    /// Creates a recipe's secret from 64 random bytes, half of which form the seed and half the nonce.
+    /// Creates a recipe's secret from 64 random bytes. One half forms the seed, and the other half forms the nonce.
     pub fn draw(name: &str, recipe: Digest, chance: [u8; 64]) -> Secret {
         let (seed, nonce) = chance.split_at(32);
         // The bytes are hashed, so that the output has its full length even if the randomness is poor.
@@ -60,8 +60,8 @@ impl Secret {
         }
     }
 
-    /// Computes the digest of the seed, the nonce and the recipe's digest, in a domain of its own. If the secret has
-    /// no recipe, the digest is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
+    /// Computes the domain-separated digest of the seed, the nonce and the recipe's digest. If the secret has no
+    /// recipe, the digest is BLAKE3(seed ‖ nonce), as in releases before [`COMMITS_TO_RECIPE_SINCE`].
     pub fn commitment(&self) -> Digest {
         let Some(recipe) = self.recipe else {
             return Digest::of(&[self.seed.as_bytes(), self.nonce.as_bytes()].concat());
@@ -126,8 +126,8 @@ impl Secret {
         Ok(())
     }
 
-    /// Returns a sentence about the problem with the secret of the release with the given manifest; `None` if the
-    /// secret matches the commitment.
+    /// Returns a sentence about the problem with the secret, given the manifest of its release; `None` if the secret
+    /// matches the commitment.
     ///
     /// # Errors
     /// Returns an error if the manifest's recipe has no canonical JSON.

@@ -40,11 +40,12 @@ pub struct FrozenGame {
     /// The reference players' wins on each level; empty if the recipe does not request reference players.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,
-    /// The sibling that a coin withheld, if the recipe requests siblings and the game has one.
+    /// The sibling that a coin toss selected to be withheld, if the recipe requests siblings and the game has
+    /// one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<Sibling>,
-    /// For each level, the win that a coin withheld, or `None` if there is no such win. The list is empty if
-    /// the recipe does not request second wins.
+    /// For each level, the win that a coin toss selected to be withheld, or `None` if there is no such win.
+    /// The list is empty if the recipe does not request second wins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub seconds: Vec<Option<SecondWin>>,
 }

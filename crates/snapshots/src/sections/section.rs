@@ -39,7 +39,7 @@ pub(crate) struct JobCost {
     pub(crate) is_certain: bool,
 }
 
-/// The release for which files are written.
+/// A release whose files are being written.
 pub(crate) struct Writing<'a> {
     pub(crate) recipe: &'a Recipe,
     pub(crate) canary: &'a str,

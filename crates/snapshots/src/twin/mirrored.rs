@@ -1,8 +1,8 @@
 //! The mirrored twin, in which the board and every direction in the rules are reflected left to right.
 //!
-//! A game without a mirror image is rejected with a reason. Examples are sprites whose class prefers a side, and
-//! sprites that are not one cell wide. Another reason is that the outcome depends on the order in which the sprites
-//! in a row are processed. In games without randomness, this is detected by playing both worlds side by side.
+//! A game without a mirror image is rejected with a reason. Possible reasons are sprites whose class prefers a side,
+//! sprites that are not one cell wide, and an outcome that depends on the order in which the sprites in a row are
+//! processed. In games without randomness, the last reason is detected by playing both worlds side by side.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, replayed};
 use agents::{PortfolioConfig, Solution, solve};

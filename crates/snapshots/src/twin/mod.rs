@@ -24,7 +24,7 @@ base::named_enum! {
         Mirrored = "mirrored",
         /// The game has a different theme.
         Renamed = "renamed",
-        /// The renaming that a coin withholds until the reveal ([`crate::sections::memory`]).
+        /// The renaming that a coin toss selected to be withheld until the reveal ([`crate::sections::memory`]).
         Sibling = "sibling",
     }
 }
@@ -122,7 +122,7 @@ fn of_levels(
     }
 }
 
-/// Creates a renamed twin from the caller's seed, instead of the publicly known one. Also returns the name of the
+/// Creates a renamed twin from the caller's seed, instead of the publicly known seed. Also returns the name of the
 /// twin's scene.
 pub(crate) fn renamed(
     source: &str,

@@ -2,8 +2,7 @@
 //!
 //! A coin toss decided which of two items was published. The items are two renamings of a game, or two winning
 //! episodes on a level. Only a player that knows the published item can tell which one it is. For any other player,
-//! either item was equally likely to be published, regardless of the player's results.
-//! sides.
+//! either item was equally likely to be published, whatever the player's results on the two sides.
 //!
 //! The distribution of the sum of the differences is therefore known without any assumption about players or
 //! games (R. A. Fisher, *The Design of Experiments*, 1935, §21). If all nonzero differences are ±1, the test
@@ -32,7 +31,7 @@ pub struct CoinTest {
 ///
 /// ```
 /// use infinite_arcade_statistics::coin_test;
-/// // Ten pairs of games, of which eight differ, all in favour of what was published.
+/// // The results differ in eight of ten pairs of games, always in favour of the published game.
 /// let found = coin_test(&[1, 1, 0, 2, 1, 1, 0, 1, 1, 3]);
 /// assert_eq!((found.p, found.sum, found.informative), (1.0 / 256.0, 11, 8));
 /// ```
@@ -40,8 +39,8 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     let sum = differences.iter().sum();
     let sizes: Vec<usize> =
         differences.iter().filter(|&&one| one != 0).map(|one| one.unsigned_abs() as usize).collect();
-    // `chances` contains the probability of each total, where each of the sizes either counts towards the total
-    // (published side) or does not (sealed side).
+    // `chances` contains the probability of each total. Each size either counts towards the total (published side) or
+    // does not count (sealed side).
     let mut chances = vec![1.0];
     for &size in &sizes {
         let mut next = vec![0.0; chances.len() + size];
@@ -56,9 +55,9 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     CoinTest { p: p.min(1.0), sum, informative: sizes.len() }
 }
 
-/// Returns the power of [`coin_test`] at level `alpha`, for the given number of coins with one episode per side. A
-/// coin favours the published side with probability `more`, and the sealed side with probability `less`. Returns NaN
-/// unless both are probabilities with a sum of at most 1. Cost: O(coins²).
+/// Returns the power of [`coin_test`] at the significance level `alpha`, for the given number of coins with one
+/// episode per side. A coin favours the published side with probability `more`, and the sealed side with probability
+/// `less`. Returns NaN unless both are probabilities with a sum of at most 1. Cost: O(coins²).
 pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
     if !(0.0..=1.0).contains(&more) || !(0.0..=1.0).contains(&less) || more + less > 1.0 + 1e-12 {
         return f64::NAN;
@@ -164,7 +163,7 @@ mod tests {
         assert_eq!(coin_power(7, 1.0, 0.0, 0.01), 1.0);
     }
 
-    /// For a player without memory, the test's error rate is at most its level.
+    /// For a player without memory, the test's error rate is at most its significance level.
     #[test]
     fn the_level_is_kept() {
         for (coins, each) in [(30, 0.05), (200, 0.05), (100, 0.2)] {

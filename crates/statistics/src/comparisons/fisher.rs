@@ -4,8 +4,8 @@
 //! The hypergeometric probabilities are computed from the ratios of adjacent probabilities, using only `*`, `/` and
 //! sums in a fixed order. Logarithms of factorials are avoided, because their last bits differ between platforms.
 
-/// The factor by which a table may seem more likely than the observed table because of rounding errors, and still
-/// count as equally likely. It is smaller than any true difference between tables of counts that fit in memory.
+/// The factor up to which a table that seems more likely than the observed table counts as equally likely, because of
+/// rounding errors. It is smaller than any true difference between tables of counts that fit in memory.
 pub(crate) const SAME: f64 = 1.0 + 1e-7;
 
 /// Returns the two-sided p-value for equal success rates, given the `successes` among the `trials` of two groups. The
@@ -18,7 +18,7 @@ pub(crate) const SAME: f64 = 1.0 + 1e-7;
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher;
-/// // 16 wins of 25 against 4 of 25.
+/// // The groups have 16 and 4 wins in 25 trials each.
 /// assert!((fisher([16, 4], [25, 25]) - 0.001208589982).abs() < 1e-11);
 /// ```
 pub fn fisher(successes: [u64; 2], trials: [u64; 2]) -> f64 {
@@ -124,8 +124,8 @@ mod tests {
     }
 
     /// The expected values were calculated by hand. Given the totals, the first group has 0, 1 or 2 successes in 10,
-    /// 20 and 6 of 36 equally likely cases. The tables with at most 10 cases have 16 cases in total, and those with
-    /// at most 6 cases have 6.
+    /// 20 and 6 of 36 equally likely cases. The tables with at most 10 cases have 16 cases in total, and the tables
+    /// with at most 6 cases have 6.
     #[test]
     fn groups_of_different_size() {
         for (k, expect) in [(0, 16.0 / 36.0), (1, 1.0), (2, 6.0 / 36.0)] {

@@ -39,7 +39,7 @@ pub struct Stratified {
 ///
 /// ```
 /// use infinite_arcade_statistics::{Stratum, stratified};
-/// // On each of five levels one wins all five episodes, the other one of them.
+/// // On each of five levels, one player wins all five episodes, and the other wins one.
 /// let levels = [Stratum { successes: [5, 1], trials: [5, 5] }; 5];
 /// let test = stratified(&levels);
 /// assert!(test.p < 1e-5);

@@ -42,8 +42,8 @@ pub fn bootstrap<T: Copy>(
     percentiles(found.collect(), level)
 }
 
-/// Returns the percentile interval for the mean of `ours` minus the mean of `theirs`. The method is that of
-/// [`bootstrap`], with a separate sample for each side. The sample from `ours` is drawn first.
+/// Returns the percentile interval for the mean of `ours` minus the mean of `theirs`. The method is the same as in
+/// [`bootstrap`], but with a separate sample for each side. The sample from `ours` is drawn first.
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap_difference;

@@ -1,4 +1,4 @@
-//! The cluster bootstrap for the mean of episodes from several games.
+//! The cluster bootstrap for means over the episodes of several games.
 //!
 //! Episodes of the same game are similar, so twenty-five such episodes are not twenty-five independent observations
 //! of a player. Therefore, entire games are resampled with all their episodes (A. C. Davison and D. V. Hinkley,
@@ -17,7 +17,7 @@ use super::wilson::Interval;
 ///
 /// ```
 /// use infinite_arcade_statistics::clustered_mean;
-/// // One game is always won, the other never: nothing is known of a third.
+/// // One game is always won and the other never, so nothing is known about a third game.
 /// let games = [vec![1.0; 25], vec![0.0; 25]];
 /// let interval = clustered_mean(&games, 999, 0.95, [7; 32]).unwrap();
 /// assert_eq!((interval.low, interval.high), (0.0, 1.0));

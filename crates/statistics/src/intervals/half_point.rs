@@ -1,4 +1,4 @@
-//! Estimation of the dose at which half of the trials succeed, from trials at several doses on several items of
+//! Estimation of the dose at which half of the trials succeed. The trials are at several doses, on several items of
 //! unequal difficulty.
 
 use super::bootstrap::below;
@@ -43,7 +43,7 @@ const STEPS: usize = 60;
 const BEYOND: f64 = 4.0;
 
 /// Estimates the dose at which half of the trials succeed. `groups` contains the items of each group with their
-/// trials. For example, a group is a game, and its items are levels.
+/// trials. For example, a group can be a game, with its levels as the items.
 ///
 /// The model is logit P = a + item − b ln dose with b ≥ 0.05 and normally distributed item effects. The parameters
 /// are maximum a posteriori estimates. The interval comes from a hierarchical bootstrap, which draws groups with

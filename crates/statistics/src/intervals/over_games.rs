@@ -1,6 +1,6 @@
-//! Intervals for win rates and their differences that apply to games similar to the ones played. Games are the
-//! sampling unit, because episodes of the same game are similar, and different games suit different players. Both
-//! intervals keep their coverage with six or more games (`cargo xtask simulate`).
+//! Intervals for win rates and for their differences. The intervals apply to games similar to the ones played. Games
+//! are the sampling unit, because episodes of the same game are similar, and different games suit different players.
+//! Both intervals keep their coverage with six or more games (`cargo xtask simulate`).
 
 use super::wilson::{Interval, score_interval};
 use crate::student::{student_p, student_quantile};
@@ -46,12 +46,12 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
 }
 
 /// Returns the mean of fractions from several games, with a confidence interval that applies to similar games. The
-/// fractions can be the win rates of equally weighted levels, for example. The method is that of [`rate_over_games`].
-/// `games` contains the sum and the number of fractions for each game.
+/// fractions can be the win rates of equally weighted levels, for example. The method is the same as in
+/// [`rate_over_games`]. `games` contains the sum and the number of fractions for each game.
 ///
 /// ```
 /// use infinite_arcade_statistics::share_over_games;
-/// // Three levels a game, won in 2.5 of 3 and in 0.5 of 3 plays.
+/// // Each game has three levels. The sum of the levels' win rates is 2.5 in one game and 0.5 in the other.
 /// let found = share_over_games(&[(2.5, 3.0), (0.5, 3.0)], 0.95).unwrap();
 /// assert_eq!((found.rate, found.error), (0.5, Some(1.0 / 3.0)));
 /// ```
@@ -95,13 +95,12 @@ pub struct PairedOverGames {
 /// probable error of a mean", 1908). Each game counts once, regardless of its number of episodes. The difficulty of a
 /// game cancels out in its difference.
 ///
-/// The p-value is at least 2 · 2⁻ᵍ for g games, the minimum p-value of the exact sign test (R. A. Fisher,
-/// *The Design of Experiments*, 1935, §21). Fewer than six games therefore cannot prove a difference at the
-/// 5% level.
+/// For g games, the p-value is at least 2 · 2⁻ᵍ, which is the minimum p-value of the exact sign test (R. A. Fisher,
+/// *The Design of Experiments*, 1935, §21). Fewer than six games therefore cannot prove a difference at the 5% level.
 ///
-/// If the difference is the same on all games, its variance is unknown. In that case, the p-value is this minimum, or
-/// 1 if the difference is zero. The interval is Newcombe's, computed from the Wilson intervals for the two rates,
-/// with the games as trials.
+/// If the difference is the same on all games, its variance is unknown. In that case, the p-value is 2 · 2⁻ᵍ, or 1 if
+/// the difference is zero. The interval is Newcombe's, computed from the Wilson intervals for the two rates, with the
+/// games as trials.
 ///
 /// Returns `None` if there are fewer than two games, if a rate is not a proportion, or if `level` is not
 /// within 0..1. Cost: O(games).

@@ -1,9 +1,8 @@
 //! The power of a planned comparison of two players over games, levels and runs, for given variances.
 //!
-//! In the model, the logit of a player's probability of winning is the sum of four terms: the player's
-//! ability, the game's ease, the level's ease, and the match between player and game. The last three terms
-//! are normally distributed and mutually independent. The test is
-//! [`paired_over_games`](crate::paired_over_games).
+//! In the model, the logit of a player's probability of winning is the sum of four terms: the player's ability, the
+//! game's ease, the level's ease, and the match effect between player and game. The last three terms are normally
+//! distributed and mutually independent. The test is [`paired_over_games`](crate::paired_over_games).
 
 use crate::intervals::over_games::least_p;
 use crate::student::student_quantile;
@@ -17,16 +16,16 @@ pub struct Spread {
     pub games: f64,
     /// The standard deviation of level ease within a game.
     pub levels: f64,
-    /// The standard deviation of the match between a player and a game: how much better the player performs on the
-    /// game than on equally hard games.
+    /// The standard deviation of the match effect between a player and a game: how much better the player performs on
+    /// the game than on equally hard games.
     pub matches: f64,
 }
 
 impl Default for Spread {
-    /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for matches. The values for games and
-    /// levels were measured with built-in players. The value for matches is based on the published results of fifteen
-    /// language models on six games (`docs/reference/spec/paper-winrates.csv`), for which the maximum-likelihood
-    /// estimate is 0.88.
+    /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for match effects. The values for games
+    /// and levels were measured with built-in players. The value for match effects is based on the published results
+    /// of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`), for which the
+    /// maximum-likelihood estimate is 0.88.
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }
@@ -60,13 +59,13 @@ impl Design {
         (self.moments(rates, spread).0 / self.games as f64).sqrt()
     }
 
-    /// Returns the probability that the test over games at level `alpha` distinguishes two players with the given win
-    /// rates, and finds the better one to be better. Returns 0 if there are too few games for the test. Cost: O(1),
-    /// about a millisecond.
+    /// Returns the probability that the test over games at the significance level `alpha` distinguishes two players
+    /// with the given win rates, and identifies the better one. Returns 0 if there are too few games for the test.
+    /// Cost: O(1), about a millisecond.
     ///
     /// ```
     /// use infinite_arcade_statistics::{Design, Spread};
-    /// // The same 150 episodes: thirty games show what six do not.
+    /// // With the same 150 episodes, thirty games reveal a difference that six games do not.
     /// let power = |games, runs| {
     ///     Design { games, levels: 5, runs }.power([0.5, 0.25], Spread::default(), 0.05)
     /// };
@@ -86,8 +85,8 @@ impl Design {
         shifted_tail(student_quantile(alpha, df), df, shift.abs(), skewness)
     }
 
-    /// Returns the smallest win rate above `base` that the test at level `alpha` distinguishes from `base`
-    /// with the given power. Returns `None` if there is no such rate.
+    /// Returns the smallest win rate above `base` that the test at the significance level `alpha` distinguishes from
+    /// `base` with the given power. Returns `None` if there is no such rate.
     pub fn detectable(&self, base: f64, spread: Spread, alpha: f64, power: f64) -> Option<f64> {
         let (mut low, mut high) = (base, 0.999);
         if low >= high || self.power([high, base], spread, alpha) < power {
@@ -112,7 +111,8 @@ impl Design {
         // about that mean. `cross` is the sum of the products of the variances and the mean difference.
         let (mut powers, mut inner, mut cross) = ([0.0; 3], 0.0, 0.0);
         for (game, weight) in nodes() {
-            // For each match: its weight, the mean rate on this game, and the rates on each of the game's levels.
+            // The entry for each match effect contains its weight, the mean rate on this game, and the rates on each
+            // of the game's levels.
             let of_side = |side: usize| -> Vec<(f64, f64, Vec<f64>)> {
                 let with = |(fit, weight): (f64, f64)| {
                     let centre = ability[side] + spread.games * game + spread.matches * fit;
@@ -150,7 +150,7 @@ impl Design {
 }
 
 impl Spread {
-    /// Returns the ability that has the given mean win rate over games and levels.
+    /// Returns the ability at which the mean win rate over games and levels is `rate`.
     pub fn ability(&self, rate: f64) -> f64 {
         let all = (self.games * self.games + self.levels * self.levels + self.matches * self.matches).sqrt();
         let (mut low, mut high) = (-30.0, 30.0);

@@ -31,7 +31,7 @@ impl Power {
     ///
     /// ```
     /// use infinite_arcade_statistics::Power;
-    /// // 25 episodes a side show differences of h = 0.79, about 0.1 against 0.44.
+    /// // With 25 episodes per side, a difference of h = 0.79 can be detected, such as 0.1 against 0.44.
     /// let h = Power::default().detectable_h(25);
     /// assert!((h - 0.7924).abs() < 1e-4);
     /// ```
@@ -82,7 +82,8 @@ impl Power {
 ///
 /// ```
 /// use infinite_arcade_statistics::fisher_power;
-/// // Five episodes a side: even a player who always wins is told from one of 0.2 only in 74 of 100 evaluations.
+/// // With five episodes per side, only 74 of 100 evaluations distinguish a player who always wins from a player
+/// // with a win rate of 0.2.
 /// let power = fisher_power([1.0, 0.2], [5, 5], 0.05);
 /// assert!((power - 0.73728).abs() < 1e-12);
 /// ```

@@ -1,7 +1,7 @@
 //! Estimation of a player's ability from episodes on levels of known difficulty.
 //!
-//! The likelihood is integrated by quadrature over three kinds of unknowns: the match between the player and
-//! each game, the errors in the difficulties, and the standard deviation of the matches. No distribution is
+//! The likelihood is integrated by quadrature over three kinds of unknowns: the match effects, which state how well
+//! each game suits the player, their standard deviation, and the errors in the difficulties. No distribution is
 //! approximated by a normal one, so even a player without wins gets an interval.
 
 use super::logistic::{logistic, softplus};
@@ -29,12 +29,13 @@ pub struct PlayedGame {
     pub levels: Vec<PlayedLevel>,
 }
 
-/// The lognormal prior for the standard deviation of a player's matches with games.
+/// The lognormal prior for the standard deviation of a player's match effects, which state how well each game suits
+/// the player.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MismatchPrior {
     /// The median of the prior, in logits.
     pub median: f64,
-    /// The standard deviation of the prior for the natural logarithm of the matches' standard deviation.
+    /// The standard deviation of the prior for the natural logarithm of the match effects' standard deviation.
     pub log_sd: f64,
 }
 
@@ -65,7 +66,7 @@ pub struct Ability {
     /// For the lower end of the interval and for the upper end, `true` if the data determine that end. Without wins,
     /// there is no lower bound; without losses, there is no upper bound.
     pub is_bounded: [bool; 2],
-    /// The posterior mean of the standard deviation of the player's matches with games.
+    /// The posterior mean of the standard deviation of the player's match effects.
     pub mismatch_sd: f64,
 }
 
@@ -75,7 +76,7 @@ pub(super) const STEP: f64 = 0.15;
 pub(super) const SIDE: i32 = 67;
 /// The standard deviation of the prior for an ability.
 pub(super) const ABILITY_SD: f64 = 5.0;
-/// The grid for the standard deviation of matches: its smallest node, the ratio between adjacent nodes, and the
+/// The grid for the standard deviation of match effects: its smallest node, the ratio between adjacent nodes, and the
 /// number of nodes.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
 /// The number of standard deviations at which a normal distribution is truncated.
@@ -130,7 +131,7 @@ pub fn ability(games: &[PlayedGame], prior: MismatchPrior, link: f64) -> Option<
     })
 }
 
-/// The posterior density on the grids of mismatches and abilities.
+/// The posterior density on the grids of abilities and of mismatches (standard deviations of match effects).
 struct Density<'a> {
     games: &'a [PlayedGame],
     /// The posterior weights, indexed by mismatch and ability. The weights sum to 1.

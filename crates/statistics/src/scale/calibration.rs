@@ -6,7 +6,7 @@ use super::posterior::{Functional, Model, Modes, Posterior};
 use super::spreads::Spreads;
 use nalgebra::DMatrix;
 
-/// Both dimensions, in the order of pairs of values.
+/// Both dimensions, in the order used for pairs of values.
 const BOTH: [Dimension; 2] = [Dimension::Planner, Dimension::Reader];
 
 /// An estimated value and its standard error.
@@ -62,13 +62,14 @@ pub struct Month {
     /// The difference in mean level difficulty between the month and the first release, for planners and for readers.
     /// The errors include the link error for arbitrary players in that dimension.
     pub shifts: [Estimated; 2],
-    /// The shift in mean difficulty for exactly those planners that are in the calibration, with their link error.
+    /// The shift in mean difficulty for exactly the planners in the calibration. The error includes the link error
+    /// for these planners.
     pub planners_shift: Estimated,
     /// The standard error that the difficulties of all levels share, for planners and for readers. The error of the
     /// first release is 0.
     pub link: [f64; 2],
-    /// The month's additional difficulty for readers, beyond the difficulty implied by that for planners. `None` if
-    /// no anchor (a reader from the calibration) played.
+    /// The part of the month's difficulty for readers that its difficulty for planners does not imply. `None` if no
+    /// anchor (a reader from the calibration) played.
     pub drift: Option<Estimated>,
 }
 
@@ -79,8 +80,8 @@ pub struct Calibration {
     pub examinees: Vec<Examinee>,
     /// The model's estimated standard deviations and slopes.
     pub spreads: Spreads,
-    /// The examinees' abilities. An ability is the examinee's logit on an average game from the distribution from
-    /// which the first release was drawn.
+    /// The examinees' abilities. An ability is the examinee's logit on an average game. The average is over the
+    /// distribution from which the first release was drawn.
     pub abilities: Vec<f64>,
     /// The covariance matrix of the abilities, the two origins and the ease, in this order, stored by rows.
     pub covariance: Vec<f64>,

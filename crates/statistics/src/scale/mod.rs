@@ -2,8 +2,8 @@
 //! examinees that do not change.
 //!
 //! The logit of the probability of winning is a sum of terms. The player's ability is added, and the difficulties of
-//! the month, the game and the level are subtracted. Two matches are added: the match between the player's family and
-//! the game, and the match between the player and the game.
+//! the month, the game and the level are subtracted. Two match effects are added: one states how well the game suits
+//! the player's family, and the other how well it suits the player.
 //!
 //! Difficulty has two dimensions, one for planners and one for readers. The difficulty for readers is the difficulty
 //! for planners multiplied by a slope, plus an independent remainder.

@@ -5,17 +5,17 @@ use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
 use super::logistic::logistic;
 
 /// Returns the expected standard error of an ability after the planned episodes. In `games`, `of` is the planned
-/// number of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the player's
-/// matches with games. `link` is the standard error that the difficulties of all levels share.
+/// number of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the player's match
+/// effects. `link` is the standard error that the difficulties of all levels share.
 ///
 /// The information from a game's episodes is the sum over the game's levels, reduced because all levels of a game
-/// share one match. Cost: O(levels).
+/// share one match effect. Cost: O(levels).
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{PlayedGame, PlayedLevel, expected_error};
 /// let level = PlayedLevel { difficulty: 0.0, own: 0.0, won: 0.0, of: 1.0 };
 /// let game = PlayedGame { common: 0.0, levels: vec![level] };
-/// // Without a mismatch, a play of even chances has the information 1/4.
+/// // Without match effects, an episode with even odds provides an information of 1/4.
 /// let error = expected_error(&vec![game; 100], 0.0, 0.0, 0.0);
 /// assert!((error - 0.2).abs() < 0.001);
 /// ```

@@ -130,7 +130,7 @@ impl Simulator {
     }
 
     /// Draws a player's results on the levels of a month. Each level is played once, and the episodes are spread over
-    /// as many games as possible. `month` is the month after calibration.
+    /// as many games as possible. `month` is the calibrated month.
     pub fn person(
         &mut self,
         truth: &SimulatedMonth,
@@ -165,7 +165,7 @@ impl Simulator {
 pub struct AbilityCase {
     /// The player's true ability.
     pub ability: f64,
-    /// The standard deviation of the player's matches with games.
+    /// The standard deviation of the player's match effects.
     pub mismatch: f64,
     /// The number of episodes that the player plays.
     pub episodes: usize,

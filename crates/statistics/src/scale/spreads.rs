@@ -11,9 +11,10 @@ pub struct Spreads {
     pub game: f64,
     /// For planners, the standard deviation of level difficulty within a game.
     pub level: f64,
-    /// The standard deviation of the match between a family of planners and a game.
+    /// The standard deviation of the match effect between a family of planners and a game.
     pub family: f64,
-    /// The standard deviation of the match between a planner and a game, beyond its family's match.
+    /// The standard deviation of the match effect between a planner and a game, beyond the effect of the planner's
+    /// family.
     pub planner: f64,
     /// The increase in a game's difficulty for readers per logit of its difficulty for planners.
     pub game_slope: f64,
@@ -24,7 +25,7 @@ pub struct Spreads {
     pub game_rest: f64,
     /// The standard deviation of the independent component of level difficulty for readers.
     pub level_rest: f64,
-    /// The standard deviation of the match between a reader and a game.
+    /// The standard deviation of the match effect between a reader and a game.
     pub reader: f64,
 }
 

@@ -185,8 +185,8 @@ fn parents(studio: &Studio, start: Link, lines: &Lines) -> Result<(Vec<String>, 
     Ok((said, problems))
 }
 
-/// Returns the paths in which to search for releases before the opened one. These are the paths specified by the
-/// user, the release to compare with, and the parent folders of both releases.
+/// Returns the paths in which to search for the predecessors of the opened release. These are the paths specified by
+/// the user, the release to compare with, and the parent folders of both releases.
 fn places(workspace: &Workspace) -> Vec<PathBuf> {
     let against = workspace.against.as_ref().map(|(place, _)| place.clone());
     let beside: Vec<PathBuf> =

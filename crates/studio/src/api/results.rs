@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 /// The maximum length of a prompt or a response, in characters.
 const LONGEST: usize = 20_000;
 
-/// Opens the results folders, each of which contains one evaluation.
+/// Opens the results folders. Each folder contains one evaluation.
 fn opened(studio: &Studio) -> Result<Vec<Evaluation>, Refusal> {
     if studio.workspace.results.is_empty() {
         return Err(Refusal::missing("no results are open").help("open results: `arcade studio RESULTS`"));

@@ -69,8 +69,8 @@ pub(crate) struct Necessity {
     levels: Vec<String>,
 }
 
-/// The number of forward-model calls for judging each level, for judging a game across all its levels, and for
-/// winning a new level.
+/// The number of forward-model calls for each of these tasks: judging a level, judging a game across all its levels,
+/// and winning a new level.
 const CALLS: u64 = 300_000;
 
 pub(crate) fn necessity(studio: &Studio, asked: Asked<Necessity>, lines: &Lines) -> Result<(), Ended> {

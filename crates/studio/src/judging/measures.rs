@@ -15,8 +15,8 @@ pub(super) type Measures = BTreeMap<String, f64>;
 /// The number of forward-model calls for each level, divided between the search for a win and the ladder.
 const CALLS: u64 = 200_000;
 
-/// Returns a game's measures: those of its episodes, the length of its wins in ticks, and the advantage of
-/// stronger players. Cost: some seconds. The same game has the same measures in every session.
+/// Returns a game's measures: the measures of its episodes, the length of its wins in ticks, and the
+/// advantage of stronger players. Cost: some seconds. The same game has the same measures in every session.
 pub(super) fn of(Candidate { game, levels, .. }: &Candidate) -> Measures {
     let ask = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
     let criteria = Criteria { ask, held_out: Vec::new(), budget: CALLS, ..Criteria::full() };

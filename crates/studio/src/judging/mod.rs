@@ -216,7 +216,7 @@ impl Judging {
         let Some(level) = candidate.levels.get(wanted.level).filter(|_| wanted.level < levels) else {
             return Err(Refusal::bad("there is no such level").help("load the page again"));
         };
-        // The text must be the one that the page plays.
+        // The compiled text must be the text that the page plays.
         let compiled = cache.need(&source_of(candidate))?;
         let level = compiled.level(&level.to_string())?;
         let number = u64::try_from(wanted.pair).unwrap_or_default();

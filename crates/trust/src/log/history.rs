@@ -254,8 +254,9 @@ pub fn is_month(name: &str) -> bool {
     })
 }
 
-/// Checks that a log has reached a month, such as `2027-03`. Returns the fault if it has not. The newest
-/// month in a log reveals an outdated copy; releases with other names say nothing about time.
+/// Checks that a log contains a release of the given month, such as `2027-03`, or of a later month. Returns
+/// the fault if it does not, because the log may then be outdated. Releases whose names are not months are
+/// ignored.
 pub fn frozen(entries: &[Entry], month: &str) -> Option<String> {
     let roots = entries.iter().filter_map(|entry| match entry {
         Entry::Root { release, .. } => Some(release.as_str()).filter(|name| is_month(name)),

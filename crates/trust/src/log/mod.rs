@@ -1,4 +1,4 @@
-//! An append-only log. Its entries are the leaves of a Merkle tree, whose signed states cannot be revoked.
+//! An append-only log. Its entries are the leaves of a Merkle tree. A signed state of the tree cannot be revoked.
 
 mod entry;
 mod history;
@@ -99,8 +99,8 @@ impl Log {
         faults
     }
 
-    /// Returns the faults in partial tiles from earlier states, which readers of those states may still use. Tiles
-    /// larger than the checkpoint's are ignored, because an interrupted append may leave such tiles behind.
+    /// Returns the faults in partial tiles from earlier states. Readers of those states may still use these tiles.
+    /// Tiles larger than the checkpoint's are ignored, because an interrupted append may leave such tiles behind.
     fn earlier_faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         for (place, parts) in tiles::parts(&self.entries, &self.leaves) {

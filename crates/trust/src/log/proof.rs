@@ -22,7 +22,7 @@ pub struct Inclusion {
     pub index: u64,
     /// The proof's hashes, from the entry's sibling upwards.
     pub hashes: Vec<Hash>,
-    /// The checkpoint whose root the hashes lead to.
+    /// The checkpoint with the root to which the hashes lead.
     pub checkpoint: Checkpoint,
 }
 

@@ -110,7 +110,7 @@ fn prove(leaves: &[Hash], old: usize, is_known: bool, proof: &mut Vec<Hash>) {
     }
 }
 
-/// Returns `true` if a consistency proof between two sizes and their roots is valid (RFC 9162 §2.1.4.2).
+/// Returns `true` if a consistency proof is valid for two sizes and their roots (RFC 9162 §2.1.4.2).
 pub(super) fn extends(old: u64, new: u64, old_root: &Hash, new_root: &Hash, proof: &[Hash]) -> bool {
     if old == 0 || old > new {
         return false;

@@ -11,8 +11,8 @@ use statistics::scale::{Dimension, Spreads};
 
 /// The number of players per case, on one pair of months.
 const PERSONS: usize = 40;
-/// The number of bootstrap replicates with which the bias of the spreads is corrected. `arcade study
-/// calibrate` uses 40.
+/// The number of bootstrap replicates for correcting the bias of the spreads. `arcade study calibrate` uses
+/// 40.
 const REPLICATES: u64 = 4;
 
 fn plan(families: Vec<usize>, runs: u32) -> Plan {

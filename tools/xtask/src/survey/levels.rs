@@ -23,8 +23,9 @@ use validators::{Criteria, Criterion, CriterionSet};
 /// Generates levels for every game in a folder with the constructive generator, and judges the levels as
 /// `arcade generate levels --report` does.
 ///
-/// The report shows whether the levels are winnable with a witness, are won by doing nothing or at random,
-/// are similar in size and cover to the game's own levels, are generated quickly, and differ from each other.
+/// The report shows whether the levels are winnable with a witness, and whether they are won by doing nothing
+/// or at random. It also shows whether they are similar in size and cover to the game's own levels, are
+/// generated quickly, and differ from each other.
 ///
 /// Example: cargo xtask survey --games corpora --count 5 --png sheets
 #[derive(clap::Args)]

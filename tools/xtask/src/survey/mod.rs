@@ -8,7 +8,7 @@ pub(crate) mod side_by_side;
 use anyhow::bail;
 use std::path::{Path, PathBuf};
 
-/// Returns those of a folder's subfolders that contain a game, sorted by name.
+/// Returns the subfolders that contain a game, sorted by name.
 fn folders(games: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let mut folders = crate::levels::folders(games, &[])?;
     folders.retain(|(_, path)| ["game.vgdl", "game.txt"].iter().any(|file| path.join(file).exists()));

@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// The maximum length of a row name, in characters.
 const LETTERS: usize = 18;
 
-/// The part of a text that is aligned with a given position.
+/// The part of a text that is placed at a given position.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
     Start,

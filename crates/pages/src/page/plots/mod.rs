@@ -25,7 +25,7 @@ pub(crate) use months::{MonthPlot, MonthPoint, MonthSeries, over_months};
 pub(crate) use range::range;
 pub(crate) use violin::{Violin, violins};
 
-/// A row label in a plot. The label has two lines, the second of which may be empty.
+/// A row label in a plot. The label has two lines, and the second line may be empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
     pub(crate) name: String,

@@ -12,8 +12,8 @@ const LEFT: f64 = 58.0;
 /// The height of the top margin, in pixels.
 const TOP: f64 = 10.0;
 
-/// Draws the levels in a set according to two measures. Cells with more levels are darker. The game's own levels are
-/// drawn as diamonds. Cost: O(cells).
+/// Plots the levels of a set by two measures. Cells with more levels are darker. The game's own levels are drawn as
+/// diamonds. Cost: O(cells).
 pub(crate) fn range(range: &Range) -> String {
     let Range { x, y, cells, examples, .. } = range;
     let label = format!("{} by {}", x.measure, y.measure);

@@ -46,7 +46,7 @@ pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
 /// A tile under construction.
 pub(crate) struct Art {
     look: Look,
-    /// The direction of the tile's front, of unit length.
+    /// The direction of the tile's front, as a unit vector.
     facing: Option<Point>,
     shapes: Vec<Shape>,
 }

@@ -152,7 +152,7 @@ impl BufRead for Hashed<BufReader<File>> {
 pub(super) enum Unreadable {
     /// A file system operation failed.
     Io(io::Error),
-    /// The archive does not have the form in which archives are packed.
+    /// The archive does not have the form that [`pack`](super::pack) gives to archives.
     Damaged(String),
 }
 
@@ -239,7 +239,7 @@ impl FrameReader {
     }
 }
 
-/// Converts an I/O error. Errors from the decompressor itself have no OS error number.
+/// Converts an I/O error. An error without an OS error number means that the archive is damaged.
 fn unreadable(error: io::Error) -> Unreadable {
     match (error.raw_os_error(), error.kind()) {
         (Some(_), _) => Unreadable::Io(error),

@@ -162,8 +162,8 @@ fn most(size: u64) -> u64 {
 /// The result of reading an archive: its manifest, its files, and all problems found.
 #[derive(Debug, Clone)]
 pub struct Archive {
-    /// The manifest, and the problems in the form used by [`check_integrity`]. Reading stops at the first fault in
-    /// the structure of the archive itself.
+    /// The manifest, and the problems as [`check_integrity`] reports them. Reading stops at the first fault in the
+    /// structure of the archive itself.
     pub integrity: Integrity,
     /// The digest of the uncompressed bytes that were read. In a sound archive, these are all of its bytes.
     pub digest: Digest,
@@ -374,7 +374,7 @@ fn stop(path: &str) -> impl FnOnce(Unreadable) -> Stop {
     }
 }
 
-/// Reads the list of one part of the withheld files. The size is stated in the entry's header.
+/// Reads the list of the files in one withheld part. The entry's header states the size of the list.
 fn read_list(
     reader: &mut FrameReader,
     manifest: &Manifest,

@@ -42,7 +42,7 @@ pub const SEALED_FORMAT: u32 = 3;
 pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file with the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
-/// The path of the leaf through which the root covers the manifest's header.
+/// The path of the header's leaf, through which the root covers the manifest's header.
 pub const HEADER_LEAF: &str = "MANIFEST";
 /// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
@@ -80,7 +80,7 @@ pub struct Manifest {
     /// Every file except `MANIFEST.json`, sorted by the bytes of the paths. From format 3 on, withheld files
     /// are not listed.
     pub items: Vec<Item>,
-    /// The commitments to withheld files; `None` in earlier formats, or if no files are withheld.
+    /// The commitments to withheld files; `None` before format 3, or if no files are withheld.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub withheld: Option<Withheld>,
     /// The root of the tree over the items and the header.
@@ -112,30 +112,29 @@ impl Manifest {
         MintedBy { version: self.version.clone(), generation: self.generation, semantics: self.semantics }
     }
 
-    /// Returns the paths, as far as they are known, of the files that a sealed release withholds until the reveal.
-    /// The list files are not included.
+    /// Returns the known paths of the files that a sealed release withholds until the reveal. The list files are not
+    /// included.
     pub(crate) fn held(&self) -> BTreeSet<&str> {
         let held = self.files().map(|item| item.path.as_str());
         held.filter(|path| path.starts_with(HELD) && HeldPart::of_list(path).is_none()).collect()
     }
 
-    /// Returns the items and the withheld files that are known.
+    /// Returns the items and the known withheld files.
     pub fn files(&self) -> impl Iterator<Item = &Item> {
         self.items.iter().chain(self.disclosed())
     }
 
-    /// Returns the withheld files that are known: the lists, and the files listed in them. Empty before format 3.
+    /// Returns the known withheld files: the lists, and the files listed in them. Empty before format 3.
     pub(crate) fn disclosed(&self) -> &[Item] {
         self.withheld.as_ref().map_or(&[], |withheld| &withheld.disclosed)
     }
 
-    /// Returns the withheld files that are known, excluding the lists.
+    /// Returns the known withheld files, excluding the lists.
     pub(crate) fn withheld_files(&self) -> impl Iterator<Item = &Item> {
         self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_none())
     }
 
-    /// Returns the files in archive order: the items, then the lists of withheld files, and then the files in those
-    /// lists.
+    /// Returns the files in archive order: the items, the lists of withheld files, and then the files in those lists.
     pub(crate) fn in_archive_order(&self) -> impl Iterator<Item = &Item> {
         let lists = self.disclosed().iter().filter(|item| HeldPart::of_list(&item.path).is_some());
         self.items.iter().chain(lists).chain(self.withheld_files())

@@ -22,7 +22,8 @@ pub struct Withheld {
 /// A part of the withheld files. Each part is revealed as a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HeldPart {
-    /// The published coin wins. A coin is a secret random decision about which of two equal items is published.
+    /// The wins selected by coin tosses for publication. A coin toss is a secret random decision about which of two
+    /// equal items is published.
     Solutions,
     /// All other withheld files.
     Rest,
@@ -73,7 +74,7 @@ impl Withheld {
 pub enum Reveal {
     /// All withheld files are revealed.
     All,
-    /// The published coin wins are revealed. The withheld wins, siblings, reference results and the secret stay
-    /// withheld.
+    /// The wins selected by coin tosses are revealed. The other wins, the siblings, the reference results and the
+    /// secret stay withheld.
     Solutions,
 }

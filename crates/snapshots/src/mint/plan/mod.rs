@@ -74,7 +74,7 @@ const JUDGES: u64 = 3;
 impl<'a> Plan<'a> {
     /// Creates a recipe's plan. `secret` is a sealed release's secret.
     ///
-    /// Costs tens of milliseconds to compile the corpus.
+    /// Cost: tens of milliseconds, for compiling the corpus.
     ///
     /// # Errors
     /// Returns an error if the criteria are out of range, the secret of a sealed release does not match its recipe,
@@ -128,7 +128,7 @@ impl<'a> Plan<'a> {
         Ok(self)
     }
 
-    /// Returns `true` if the release is sealed, so that its seed and witnesses are withheld.
+    /// Returns `true` if the release is sealed, which means that its seed and witnesses are withheld.
     pub fn is_sealed(&self) -> bool {
         self.recipe.commitment.is_some()
     }
@@ -244,8 +244,7 @@ impl<'a> Plan<'a> {
         Ok(order.into_iter().map(Job::Corpus).collect())
     }
 
-    /// Runs a job. Costs between one second and several minutes of core time. Uses all threads of the current rayon
-    /// pool.
+    /// Runs a job. Cost: one second to several minutes of core time. Uses all threads of the current rayon pool.
     ///
     /// # Errors
     /// Returns an error if the recipe requests reference results and their players are missing or fail.
@@ -321,8 +320,8 @@ impl<'a> Plan<'a> {
         (made.into_iter().collect(), tally)
     }
 
-    /// Returns the rule sets of new games. To be diverse, they must be assigned beforehand, because jobs run
-    /// independently.
+    /// Returns the rule sets of new games. They are assigned before the jobs run, because independent jobs could not
+    /// ensure that the rule sets are diverse.
     pub(super) fn rule_sets(&self) -> &RuleSets {
         self.sets.get_or_init(|| {
             let known: Vec<GameForm> = self.forms.iter().chain(&self.before).cloned().collect();
@@ -390,8 +389,8 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The number of times that the levels of a corpus game may leave a rule unused before attempts to create the game
-/// end. After that, further levels are unlikely to use the rule.
+/// The number of times that a corpus game's levels may leave a rule unused before the attempts to create the game
+/// stop. After that, further levels are unlikely to use the rule.
 const UNUSED: u64 = 3;
 
 /// Returns the number of candidates for a given number of games.
@@ -407,8 +406,8 @@ mod tests {
     use crate::mint::tests::{FETCH, corpus, recipe};
     use validators::{CriterionSet, Difficulty};
 
-    /// Published episodes differ from the episodes that led to a level's acceptance or selection, because the
-    /// latter are biased by luck.
+    /// Published episodes differ from the episodes that led to a level's acceptance or selection, because those
+    /// episodes are biased by luck.
     #[test]
     fn the_ladder_plays_again_for_the_card() {
         let corpus = corpus(&[("fetch", FETCH)]);

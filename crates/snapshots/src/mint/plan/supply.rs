@@ -8,8 +8,8 @@ use forge::games::RuleSets;
 use forge::well::left;
 use validators::novelty::GameForm;
 
-/// The maximum number of games for which the first rule sets of all kernels are enough, so that the rule sets need
-/// not be counted.
+/// The maximum number of games for which the rule sets need not be counted, because the first rule sets of all
+/// kernels suffice.
 const FEW: usize = 40;
 
 /// The number of rule sets that one invented game uses up. Nine in ten rule sets have no board that passes, and

@@ -1,9 +1,9 @@
 //! Marks, or reference results: the results of fixed players on a release's levels, stored in the release for
 //! comparison with other players.
 //!
-//! The recipe specifies the players. When the release is minted, they play each level with each commitment, and their
-//! results are stored in a file of the release. In a sealed release, this file is withheld, so that the difficulty of
-//! the levels is not revealed early.
+//! The recipe specifies the players. When the release is minted, they play each level with each commitment (the
+//! number of actions per decision), and their results are stored in a file of the release. In a sealed release, this
+//! file is withheld, so that the difficulty of the levels is not revealed early.
 
 mod check;
 mod compare;
@@ -139,8 +139,8 @@ impl MarksPart {
     }
 }
 
-/// The interface through which the reference players play. The evaluation crate implements it, because this crate
-/// does not depend on that one.
+/// The interface for running the reference players. The evaluation crate implements it, because this crate does not
+/// depend on the evaluation crate.
 pub trait MarkPlayers: Sync + Debug {
     /// Checks that a player with the given name exists.
     ///

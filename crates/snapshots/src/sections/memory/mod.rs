@@ -1,10 +1,10 @@
-//! Coins for memory tests. Minting creates pairs whose members can be told apart only by a player who knows the
-//! published one. A coin decides which member is published, and the release commits to the other ([the
-//! tests](../../../../../docs/how-to/memory.md)).
+//! Coin tosses for memory tests. Minting creates pairs of equivalent items. Only a player who knows the published
+//! member of a pair can tell the two apart. A coin toss selects the member to publish, and the release commits to the
+//! other member ([the tests](../../../../../docs/how-to/memory.md)).
 //!
-//! A pair consists of two renamings of a game (siblings) or two wins of a level. Its coin is drawn from the
-//! release's secret and the smaller of the two digests, so it does not depend on the members' order of
-//! creation or their positions. The withheld member is stored in [`HELD`] until the release is revealed.
+//! A pair consists of two renamings of a game (siblings) or two wins of a level. The result of its coin toss is
+//! derived from the release's secret and the smaller of the members' digests, so it does not depend on the members'
+//! order of creation or their positions. The withheld member is stored in [`HELD`] until the release is revealed.
 
 mod pairs;
 pub(crate) mod part;
@@ -47,19 +47,20 @@ pub struct SecondWin {
     pub path: Vec<SeedStep>,
 }
 
-/// Returns `true` if the coin for a pair publishes `one`. `what` names the kind of pair.
+/// Returns `true` if the coin toss for a pair selects `one` for publication. `what` names the kind of pair.
 fn publishes(root: Seed, what: &str, one: Digest, other: Digest) -> bool {
     let first = one.min(other);
     let is_first = root.child(&format!("coin of {what} {first}"), 0).sampler().ratio(1, 2);
     is_first == (one == first)
 }
 
-/// Returns `true` if the coin for two siblings, identified by the digests of their rules, publishes the first.
+/// Returns `true` if the coin toss between two siblings selects the first sibling for publication. The siblings are
+/// identified by the digests of their rules.
 pub(crate) fn publishes_sibling(root: Seed, one: Digest, other: Digest) -> bool {
     publishes(root, "siblings", one, other)
 }
 
-/// Returns `true` if the coin for two wins of a level publishes the first.
+/// Returns `true` if the coin toss between a level's two wins selects the first win for publication.
 pub(crate) fn publishes_win(root: Seed, one: &Episode, other: &Episode) -> bool {
     let digest = |episode| canonical_digest(episode).expect("an episode has no numbers that JSON lacks");
     publishes(root, "wins", digest(one), digest(other))
@@ -82,8 +83,8 @@ mod tests {
         assert!(serde_json::to_value(Recipe::from_toml(GOOD).unwrap()).unwrap().get("memory").is_none());
     }
 
-    /// A coin publishes the same member of a pair in either order. Over many pairs, each member is published half of
-    /// the time.
+    /// A coin toss selects the same member of a pair in either order. Over many pairs, each member is selected half
+    /// of the time.
     #[test]
     fn coins_are_fair_and_do_not_depend_on_the_order() {
         let of = |text: &str| Digest::of(text.as_bytes());

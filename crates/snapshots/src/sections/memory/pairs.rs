@@ -1,5 +1,5 @@
 //! Checks of pairs after the reveal. The two members must differ only in permitted ways, and the published member
-//! must be the one that the coin chose.
+//! must be the one that the coin toss selected.
 
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
@@ -38,7 +38,8 @@ impl SecretGame {
     }
 
     /// Returns a sentence about the problem with a published game's sibling. It is a problem if the rules or the
-    /// levels differ from the game's, or if the coin did not withhold the sibling. `root` is the seed for the coins.
+    /// levels differ from the game's, or if the coin toss selected the sibling for publication. `root` is the seed
+    /// for the coin tosses.
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
@@ -123,7 +124,7 @@ mod tests {
         TerminationSet\n        SpriteCounter stype=door limit=0 win=True\n        Timeout limit=50 win=False\n";
     const LEVEL: &str = "wwwww\nwm.dw\nwwwww\n";
 
-    /// Checks the mole's sibling after a change, with coins from a seed for heads or tails.
+    /// Checks the mole's sibling after a change, with a seed for which the coin toss gives heads or tails.
     #[track_caller]
     fn check(change: impl Fn(&mut String, &mut Vec<String>), heads: bool, expect: Option<&str>) {
         let game = Game::from_source(GAME).unwrap();

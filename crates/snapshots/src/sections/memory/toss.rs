@@ -1,4 +1,4 @@
-//! The creation of pairs and the tossing of their coins, which is part of minting a game.
+//! The creation of pairs, and the coin tosses between their members. Both are part of minting a game.
 
 use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::sections::frozen::FrozenGame;
@@ -21,7 +21,7 @@ const DETOUR: usize = 6;
 /// The maximum number of pairs of renamings to create in search of a pair with distinct themes.
 const THEME_TRIES: u64 = 16;
 
-/// Creates the pairs requested for a game, and publishes the member of each pair that the coin selects. A game
+/// Creates the pairs requested for a game. A coin toss selects the member of each pair that is published. A game
 /// without a second theme gets no sibling, and a level without a second win gets no pair. `criteria` are the criteria
 /// of the game's judges.
 ///

@@ -1,4 +1,4 @@
-//! Checks of the games and wins that coins withheld, which are siblings of games and second wins of levels.
+//! Checks of the withheld members of pairs, which are siblings of games and second wins of levels.
 
 use super::pairs::{SecretGame, pair_flaw};
 use super::part::MemoryPart;

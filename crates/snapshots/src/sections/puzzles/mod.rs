@@ -26,7 +26,7 @@ struct Facts {
     section: &'static str,
     /// The section's keys.
     keys: [&'static str; 7],
-    /// The number of rule sets. No two of them are near each other.
+    /// The number of rule sets. No two of them are near-duplicates.
     rules: usize,
     /// The maximum number of cells per board.
     cells: usize,
@@ -60,7 +60,7 @@ base::with_defaults! {
         pub games: u32 = 0,
         /// The number of levels per game.
         pub levels: u32 = 3,
-        /// The maximum number of attempts to make the level for one position.
+        /// The maximum number of attempts to make each level.
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
@@ -151,7 +151,7 @@ impl PuzzleKind {
         self.facts().section
     }
 
-    /// Returns the number of rule sets. No two of them are near each other.
+    /// Returns the number of rule sets. No two of them are near-duplicates.
     pub(crate) fn rules(self) -> usize {
         self.facts().rules
     }

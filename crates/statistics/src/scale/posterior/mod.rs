@@ -1,4 +1,4 @@
-//! The model's mode and curvature for given spreads (Laplace's method).
+//! The mode and the curvature of the model's posterior for given spreads (Laplace's method).
 //!
 //! The effects of different games interact only through a few parameters that all games share. Therefore, each step
 //! costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
@@ -60,8 +60,9 @@ struct Layout {
     /// no readers played, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The positions of two matches per examinee: the family's match, and the examinee's own additional match. An
-    /// examinee that is the only member of its family has only the former, and a reader has only the latter.
+    /// The positions of two match effects per examinee: the family's effect, and the examinee's additional effect. An
+    /// examinee that is the only member of its family has only the family's effect, and a reader has only the
+    /// additional effect.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 
@@ -200,8 +201,8 @@ impl<'a> Model<'a> {
         None
     }
 
-    /// Takes a step that increases the log density, and halves the step until it does. Returns the new modes, their
-    /// log density, and an upper bound on the step length.
+    /// Takes a step, which is halved until it does not decrease the log density. Returns the new modes, their log
+    /// density, and an upper bound on the step length.
     fn raised(
         &self,
         rows: &[Vec<Row>],

@@ -1,8 +1,8 @@
-//! drand networks. In each round, at least a threshold number of a network's members sign together, with BLS
-//! signatures on the curve BLS12-381.
+//! drand networks. In each round, at least a threshold number of a network's members sign jointly, with a BLS
+//! signature on the curve BLS12-381.
 //!
-//! A network is identified by its chain hash, which covers its public key. This module names two networks.
-//! Any other network is identified by its chain hash, so that a commitment to the source fixes the key.
+//! A network's chain hash covers its public key. This module names two networks. Any other network is
+//! identified by its chain hash, so that a commitment to the source fixes the key.
 
 #[cfg(feature = "drand")]
 mod bls;
