@@ -6,7 +6,7 @@ use base::{Sampler, Seed};
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 
-/// The number of seeds that a chain tries for a starting candidate before skipping its turn.
+/// The number of seeds to try for a chain's starting candidate before the chain's turn is skipped.
 const STARTS: usize = 16;
 
 /// The parameters of an annealing search.
@@ -19,16 +19,16 @@ pub struct AnnealingConfig {
     /// The decrease in objective, relative to the current candidate, that is accepted with probability 1/e at the start
     /// of the search.
     pub warmest: f64,
-    /// The decrease in objective that is accepted with probability 1/e at the end of the search; greater than 0.
+    /// The decrease in objective that is accepted with probability 1/e at the end of the search. Must be positive.
     pub coldest: f64,
     /// The number of starting candidates per chain. The chain continues from the best starting candidate.
     pub starts: usize,
-    /// The number of consecutive candidates that do not improve on the chain's best, after which the chain restarts.
+    /// The number of consecutive candidates, none better than the chain's best, after which the chain restarts.
     pub patience: usize,
 }
 
 impl AnnealingConfig {
-    /// Returns sensible settings for a number of evaluations.
+    /// Returns default parameters for a given number of evaluations.
     pub fn of(evaluations: usize) -> AnnealingConfig {
         let chains = (evaluations / 60).clamp(1, 4);
         let patience = (evaluations / chains / 3).max(20);
@@ -42,8 +42,8 @@ impl AnnealingConfig {
 /// Each chain stores a current candidate and proposes its neighbours. Infeasible candidates are compared only by
 /// feasibility, and feasible candidates only by objective. An infeasible candidate never replaces a feasible one. The
 /// temperature falls geometrically with the number of reported evaluations, not with time. A batch's neighbours are
-/// processed in order, and each is compared with the candidate that is current by then. A chain that has stagnated
-/// restarts.
+/// processed in order, and each is compared with the chain's current candidate at that moment. A chain that has
+/// stagnated restarts.
 ///
 /// Memory use: two candidates per chain, plus the best candidate. [`Search::ask`] returns an empty batch once it has
 /// proposed all candidates.
@@ -53,9 +53,9 @@ pub struct Annealing<V: Variation> {
     config: AnnealingConfig,
     seed: Seed,
     chains: Vec<Chain<V::Candidate>>,
-    /// The index of the next chain in turn.
+    /// The index of the chain whose turn is next.
     turn: usize,
-    /// For each proposed candidate that is not yet evaluated, its chain, in order of proposal.
+    /// The chain of each proposed candidate that has not been evaluated yet, in order of proposal.
     pending: VecDeque<usize>,
     asked: usize,
     told: usize,
@@ -71,7 +71,7 @@ struct Chain<C> {
     present: Option<(C, Evaluation)>,
     /// The number of starting candidates still to be proposed.
     starts: usize,
-    /// The best evaluation since the chain started.
+    /// The best evaluation since the chain last started.
     peak: Option<Evaluation>,
     /// The number of candidates evaluated since `peak` was set.
     stale: usize,
@@ -208,7 +208,7 @@ fn compare(one: &Evaluation, two: &Evaluation) -> Ordering {
     one.0.cmp(&two.0).then(one.1.total_cmp(&two.1))
 }
 
-/// Returns how much worse the first evaluation is than the second; `None` if only one of them is feasible.
+/// Returns the amount by which the first evaluation is worse than the second; `None` if only one of them is feasible.
 fn loss(one: &Evaluation, two: &Evaluation) -> Option<f64> {
     match (one.is_feasible(), two.is_feasible()) {
         (true, true) => Some(two.objective - one.objective),

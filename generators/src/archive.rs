@@ -1,4 +1,4 @@
-//! A grid of elites, which are the best candidates of their cells. A candidate's measures determine its cell.
+//! A grid of elites. A candidate's measures determine its cell, and the best candidate of a cell is the cell's elite.
 
 use crate::Evaluation;
 use std::collections::BTreeMap;
@@ -54,7 +54,7 @@ pub enum AddStatus {
     Rejected,
 }
 
-/// The best feasible candidate of every cell of a grid of measures (the archive of Mouret and Clune, "Illuminating
+/// A grid of measures with the best feasible candidate in each cell (the archive in Mouret and Clune, "Illuminating
 /// search spaces by mapping elites", 2015). Each cell also has a pocket of nearly feasible candidates (Khalifa et al.,
 /// "Talakat: Bullet Hell Generation through Constrained Map-Elites", 2018).
 ///
@@ -78,9 +78,9 @@ impl<C> Archive<C> {
     }
 
     /// Adds a candidate if it is good enough. Cost: O(log cells + pocket). A feasible candidate becomes its cell's
-    /// elite if its objective is higher than the current elite's. An infeasible candidate is added to the pocket, which
-    /// evicts its worst candidate if it is full. Among equally infeasible candidates, the oldest is evicted, so that
-    /// candidates of equal feasibility can still drift.
+    /// elite if its objective is higher than the current elite's. An infeasible candidate is added to the pocket. If
+    /// the pocket is full, its worst candidate is evicted. Among equally infeasible candidates, the oldest is evicted,
+    /// so that candidates of equal feasibility can still drift.
     pub fn add(&mut self, candidate: C, evaluation: Evaluation) -> AddStatus {
         let cell = self.cell(&evaluation.measures);
         let judged = Evaluated { candidate, evaluation };
@@ -113,8 +113,8 @@ impl<C> Archive<C> {
         status
     }
 
-    /// Moves a cell's elite to the pocket because a closer evaluation found it infeasible after all. The cell is then
-    /// free for a new elite. Has no effect if `feasibility` is at least 1, which means feasible.
+    /// Moves a cell's elite to the pocket because a more thorough evaluation found it infeasible. The cell is then free
+    /// for a new elite. Has no effect if `feasibility` is at least 1, which means feasible.
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         if feasibility < 1.0
             && let Some(mut judged) = self.elites.remove(&cell)

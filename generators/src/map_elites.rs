@@ -101,7 +101,7 @@ impl<'a, V: Variation> MapElites<'a, V> {
         &self.archive
     }
 
-    /// Removes an elite that a closer evaluation found infeasible; see [`Archive::demote`].
+    /// Removes an elite that a more thorough evaluation found infeasible; see [`Archive::demote`].
     pub fn demote(&mut self, cell: usize, feasibility: f64) {
         self.archive.demote(cell, feasibility);
     }

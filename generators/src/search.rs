@@ -1,9 +1,9 @@
 //! Ask-and-tell search. A search proposes candidates, the caller evaluates them, and the search learns from the
 //! results.
 //!
-//! A search is independent of the candidate type and of the evaluation. The same three algorithms generate levels,
-//! rules, or anything else with a [`Variation`]. The interface follows Fontaine et al., "pyribs: A Bare-Bones Python
-//! Library for Quality Diversity Optimization" (2023).
+//! A search is independent of the candidate type and of the evaluation. The same algorithms generate levels, rules, or
+//! anything else with a [`Variation`]. The interface follows Fontaine et al., "pyribs: A Bare-Bones Python Library for
+//! Quality Diversity Optimization" (2023).
 
 use base::{Sampler, Seed};
 

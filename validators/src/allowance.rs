@@ -18,11 +18,11 @@ const SAMPLED_TICKS: u64 = 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Allowance {
     calls: u64,
-    /// The number of calls as which a single call counts. It is greater than 1 if ticks are unusually expensive.
+    /// The weight of a single call. It is greater than 1 if ticks are unusually expensive.
     weight: u64,
 }
 
-/// A counter that sums the work of ticks.
+/// A counter of the total work done by all ticks.
 struct WorkCounter(u64);
 
 impl Watch for WorkCounter {
@@ -100,7 +100,7 @@ impl<'a> Setting<'a> {
         Setting { criteria, allowance, is_sequential: effort == Effort::Sequential }
     }
 
-    /// Returns `full`, or the fraction `times / of` of the allowance if that is smaller.
+    /// Returns `full` or, if that is smaller, the fraction `times / of` of the allowance.
     fn bounded(&self, full: u64, [times, of]: [u64; 2]) -> u64 {
         self.allowance.map_or(full, |allowance| allowance.share(times, of, 1).min(full))
     }

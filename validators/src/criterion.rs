@@ -52,7 +52,7 @@ pub(crate) enum Stage {
     Search,
     /// The criterion examines the win found.
     Win,
-    /// The criterion uses a player ladder, which may win even if no search did. Skipped on unwinnable levels.
+    /// The criterion uses a player ladder, whose players may win even if no search did. Skipped on unwinnable levels.
     Ladder,
 }
 
@@ -63,7 +63,7 @@ pub(crate) enum About {
     Players,
     /// Winning play. Skips levels without a known win.
     Play,
-    /// The rules. Doubts about the rules may only be due to an unwinnable level.
+    /// The rules. Doubts about the rules may be due only to an unwinnable level.
     Rules,
 }
 
@@ -87,7 +87,7 @@ macro_rules! define {
         games { $($game:ident = $game_name:literal, $about:ident, $game_cost:ident, $game_module:ident;)* }
         gates { $($gate:ident = $gate_name:literal, $gate_cost:ident, $gate_module:ident;)* }
     ) => {
-        /// A criterion for a level, or for a game as a whole. Criteria are in checking order.
+        /// A criterion for a level, or for a game as a whole. The variants are in checking order.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Criterion {
             $(#[doc = concat!("`", $level_name, "`, of a level.")] $level,)*

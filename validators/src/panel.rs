@@ -241,7 +241,8 @@ fn skipped(why: &str) -> Finding {
 }
 
 /// Returns the reason why a verdict on the rules should not count, if there is one. The verdict may merely be a
-/// consequence of levels that are unwinnable or over in their first tick. If all levels are, it is meaningless.
+/// consequence of levels that are unwinnable or over in their first tick. If all levels are, the verdict is
+/// meaningless.
 fn consequence(reports: &[Report], verdict: &Verdict) -> Option<String> {
     if reports.iter().any(Report::is_stopped) && !verdict.is_pass() {
         return Some(STOPPED.to_owned());

@@ -17,59 +17,60 @@ base::with_defaults! {
     pub struct Criteria {
         /// The criteria to check, in a fixed order from cheapest to most expensive.
         pub ask: CriterionSet = CriterionSet::LEVEL.without(CriterionSet::of(&[Criterion::Skill])),
-        /// The number of forward-model calls per decision of the searching player, and of players of the ladder without
-        /// a number.
+        /// The number of forward-model calls per decision of the searching player, and of ladder players whose names do
+        /// not specify a number.
         pub decision: u64 = 500,
         /// The total number of forward-model calls to find a win.
         pub budget: u64 = 3_000_000,
-        /// In a deterministic game, the fraction of the budget that may be used to prove the length of the shortest
-        /// win.
+        /// The fraction of the budget that may be used to prove the length of the shortest win in a deterministic game.
         pub shortest: f64 = 0.1,
-        /// In a stochastic game, the fraction of the budget that is reserved for a search that foresees all randomness
+        /// The fraction of the budget that is reserved, in a stochastic game, for a search that foresees all randomness
         /// of an episode.
         #[serde(skip_serializing_if = "is_zero")]
         pub foresight: f64 = 0.0,
-        /// The look-ahead in ticks of the bold tree searches among the players that look for a win.
+        /// The look-ahead, in ticks, of each bold tree search among the players that look for a win. Each entry adds
+        /// one such player.
         pub depths: Vec<u32> = vec![20],
-        /// The number of episodes of plain tree search that the card of a level reports.
+        /// The number of plain tree search episodes reported on a level's card.
         pub mcts_plays: u32 = 4,
-        /// The number of episodes of doing nothing.
+        /// The number of episodes in which the player does nothing.
         pub idle_plays: u32 = 8,
         /// The number of episodes of random play.
         pub random_plays: u32 = 40,
         /// The maximum fraction of random episodes that may be won.
         pub random_wins: f64 = 0.2,
-        /// The minimum number of ticks of the shortest win found.
+        /// The minimum number of ticks in the shortest win found.
         pub least_ticks: usize = 8,
-        /// The maximum number of ticks of the shortest win found.
+        /// The maximum number of ticks in the shortest win found.
         pub most_ticks: usize = 1000,
-        /// The number of ticks at the start in which death must be avoidable.
+        /// The number of initial ticks in which death must be avoidable.
         pub early_ticks: usize = 12,
-        /// The number of forward-model calls to look for a way to survive these ticks, for each random seed.
+        /// The number of forward-model calls per random seed in a search for a way to survive the first ticks.
         pub early_calls: u64 = 20_000,
-        /// The number of random seeds with which to look for a way to survive.
+        /// The number of random seeds with which to search for a way to survive the first ticks.
         #[serde(rename = "early_chances")]
         pub early_seeds: u32 = 20,
-        /// The maximum fraction of these seeds with which death may be unavoidable.
+        /// The maximum fraction of random seeds with which early death may be unavoidable.
         pub early_deaths: f64 = 0.05,
         /// The players that measure difficulty and skill, from weakest to strongest, such as `mcts:500`.
         pub ladder: Vec<String> = names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
         /// The players that must show skill as well, and that never guide a search.
         pub held_out: Vec<String> = names(&["mcts:300", "olets:200"]),
-        /// The maximum number of episodes of each player.
+        /// The maximum number of episodes per player.
         pub ladder_plays: u64 = 12,
-        /// The total number of forward-model calls of all players, after which no further round of episodes begins.
+        /// The total number of forward-model calls by all players after which no further round of episodes begins.
         pub ladder_calls: u64 = 5_000_000,
         /// The multiple of the witness's ticks (plus 50) after which an episode of the ladder is stopped.
         pub patience: usize = 3,
         /// The minimum difference between the win rates of stronger and weaker players.
         pub skill_wins: f64 = 0.25,
-        /// The minimum difference between their mean scores, as a fraction of the range of all scores. Reaching it is
-        /// sufficient even if `skill_wins` is not reached.
+        /// The minimum difference between the mean scores of stronger and weaker players, as a fraction of the range of
+        /// all scores. Reaching this difference is sufficient even if `skill_wins` is not reached.
         pub skill_scores: f64 = 0.1,
-        /// The minimum difference between win rates over all levels together, at the lower end of the 95% interval.
+        /// The minimum for the lower end of the 95% interval of the difference between win rates over all levels
+        /// together.
         pub skill_overall: f64 = 0.25,
-        /// The number of forward-model calls to show that a rule matters, for each rule.
+        /// The number of forward-model calls per rule to show that the rule matters.
         pub ablation_calls: u64 = 200_000,
         /// The thresholds of the gates.
         #[serde(skip_serializing_if = "Gates::are_default")]

@@ -40,7 +40,8 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
     }
 
-    /// Returns the form of a generated game's kernel; `None` for the kernel itself.
+    /// Returns the form of the kernel from which a game was generated. A form is a variation of a kernel. Returns
+    /// `None` for the unmodified kernel.
     pub fn form(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("form/"))
@@ -87,7 +88,7 @@ pub struct LevelCard {
     pub witness_ticks: usize,
     /// The witness's score.
     pub witness_score: f64,
-    /// The number of ticks of the shortest win, if it is proved to be the shortest.
+    /// The number of ticks in the shortest win, if it is proved to be the shortest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimal_ticks: Option<usize>,
     /// The number of forward-model calls spent on searching for the witness.

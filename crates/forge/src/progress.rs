@@ -11,7 +11,7 @@ pub trait Progress: Sync {
     fn looked(&self) {}
     /// Called after a candidate is accepted: a game with this title, or the level with this number.
     fn made(&self, _what: &str) {}
-    /// Returns the result of an attempt that an interrupted run for the same games has saved.
+    /// Returns the saved result of an attempt, if an interrupted run for the same games has saved it.
     fn kept(&self, _attempt: &str) -> Option<Kept> {
         None
     }

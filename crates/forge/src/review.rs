@@ -111,7 +111,7 @@ fn review(document: &Review<'_>, quiet: bool) -> String {
     text
 }
 
-/// Returns the verdict on a level, on one line.
+/// Returns a one-line verdict on a level.
 fn headline(level: &ReviewedLevel<'_>, source: &str) -> String {
     let Some(report) = level.report else { return "is not a level of this game".to_owned() };
     if let Some(judgement) = report.first_obstacle() {
@@ -133,8 +133,7 @@ fn in_words(difficulty: Difficulty) -> String {
     difficulty.to_string().replace('_', " ")
 }
 
-/// Returns one line with the reason why a criterion does not pass, and the position of the rule that it
-/// quotes.
+/// Returns one line with the reason why a criterion does not pass, and the position of the rule that the reason quotes.
 fn obstacle(judgement: &Judgement, source: &str) -> String {
     let Judgement { criterion, finding } = judgement;
     match &finding.verdict {

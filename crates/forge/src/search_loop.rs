@@ -45,7 +45,7 @@ impl<C: Clone> Finalists<C> {
         Finalists { best: Vec::new() }
     }
 
-    /// Adds a candidate if it is feasible, not yet present by its key, and good enough.
+    /// Adds a candidate if it is feasible and good enough, and no candidate with the same key has been added.
     pub(crate) fn note(&mut self, candidate: &C, key: Digest, evaluation: &Evaluation) {
         if !evaluation.is_feasible() || self.best.iter().any(|(_, known, _)| *known == key) {
             return;
@@ -65,10 +65,10 @@ impl<C: Clone> Finalists<C> {
 /// An archive's elite, with its cell and the cell's bins.
 type Elite<'a, C> = (usize, Vec<usize>, &'a Evaluated<C>);
 
-/// Picks candidates that were not shown before from an archive, spread as far apart as possible, and returns them with
-/// their cells. Each step picks the candidate farthest from all taken or picked cells. Ties go to the better candidate,
-/// so the first pick is the best candidate if no cells are taken. Candidates near a taken or picked candidate are
-/// skipped, and may be picked later.
+/// Picks candidates from an archive, except those in `shown`, and returns them with their cells. The picked candidates
+/// are spread as far apart as possible and added to `shown`. Each step picks the candidate farthest from all taken or
+/// picked cells. Ties go to the better candidate, so the first pick is the best candidate if no cells are taken.
+/// Candidates near a taken or picked candidate are skipped, and may be picked later.
 pub(crate) fn spread<C: Clone>(
     archive: &Archive<C>,
     wanted: usize,

@@ -3,7 +3,7 @@
 use super::idiom::Idiom;
 use engine::SpriteType;
 
-/// The demand of a course's last slot.
+/// The maximum demand on the player, which is that of a course's last slot.
 pub(crate) const MAX_DEMAND: u8 = 4;
 
 /// The request for a board: its demand on the player, and its contents.
@@ -15,11 +15,11 @@ pub struct BoardBrief {
     /// The minimum and maximum numbers of sprites for some types. The numbers for all other types follow from the rules
     /// and the demand.
     pub counts: Vec<(SpriteType, (usize, usize))>,
-    /// The idioms of types for which the caller knows better than [`Idiom::of`].
+    /// The idioms of some types, which replace the results of [`Idiom::of`].
     pub idioms: Vec<(SpriteType, Idiom)>,
     /// The types that the board must not contain.
     pub without: Vec<SpriteType>,
-    /// The columns and rows, including the border. If `None`, the demand determines the size.
+    /// The numbers of columns and rows, including the border. If `None`, the demand determines the size.
     pub size: Option<(usize, usize)>,
 }
 

@@ -3,7 +3,7 @@
 use crate::levels::grid::{FAR, Grid};
 use base::Sampler;
 
-/// A line that divides a board, and the gaps in it. The line's walls have not been placed yet.
+/// A line that divides a board, and the gaps in the line. The line's walls have not been placed yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Divider {
     /// The line's cells in order, including gaps.
@@ -39,14 +39,14 @@ impl Canvas {
         self.grid.rows - 2
     }
 
-    /// Fills the part of a rectangle that lies on the board with walls.
+    /// Fills a rectangle with walls, except for any part that is off the board.
     pub(crate) fn fill(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = true;
         }
     }
 
-    /// Clears the part of a rectangle that lies within the border.
+    /// Clears a rectangle, except for any part on or beyond the border.
     pub(crate) fn clear(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         for cell in self.cells((x, y), size) {
             self.wall[cell] = self.grid.on_border(cell);
@@ -89,8 +89,8 @@ impl Canvas {
         cells
     }
 
-    /// Adds a divider with up to `gaps` gaps. Each gap is one or two cells wide and lies on a straight stretch, apart
-    /// from the other gaps.
+    /// Adds a divider with up to `gaps` gaps. Each gap is one or two cells wide, lies on a straight stretch, and is not
+    /// next to another gap.
     pub(crate) fn divide(&mut self, line: Vec<usize>, gaps: usize, sampler: &mut Sampler) {
         let is_straight = |at: usize| {
             at > 0
@@ -157,7 +157,7 @@ impl Canvas {
     }
 
     /// Removes walls that do not touch another wall, and fills disconnected floor. Dividers count as floor. Returns
-    /// `false` if a disconnected part of the floor is too large to fill, or if little floor is left.
+    /// `false` if a disconnected part of the floor is too large to fill, or if too little floor is left.
     pub(crate) fn settle(&mut self) -> bool {
         for cell in 0..self.grid.len() {
             let barred = |next: &Option<usize>| next.is_none_or(|next| self.wall[next]);
@@ -217,7 +217,7 @@ pub(crate) fn emptiness(grid: Grid, is_empty: impl Fn(usize) -> bool) -> f64 {
     largest as f64 / ((grid.columns - 2) * (grid.rows - 2)) as f64
 }
 
-/// Returns the cells far from a given cell through open cells: those at a distance of at least 70% of the maximum.
+/// Returns the cells whose distance from a given cell through open cells is at least 70% of the maximum distance.
 pub(crate) fn far_from(grid: Grid, from: usize, open: impl Fn(usize) -> bool) -> Vec<usize> {
     let steps = grid.flood(&[from], open);
     let reached = || steps.iter().copied().filter(|&steps| steps != FAR);

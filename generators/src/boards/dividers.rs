@@ -6,7 +6,7 @@ use super::idiom::Idiom;
 use super::kit::{Kit, Piece};
 use base::Sampler;
 
-/// Pieces still to be placed, with their numbers.
+/// Pieces still to be placed, with the number of each.
 pub(crate) type Stock = Vec<(Piece, usize)>;
 
 /// Places a plan's walls and dividers. A gap contains a barrier or stays open. A river has at most one gap.
@@ -41,7 +41,7 @@ pub(crate) fn lay<'k>(
     draft
 }
 
-/// Turns some of the wall blocks away from the border into ponds, if the game has a suitable type.
+/// Replaces some wall blocks that are not on the border with ponds, if the game has a suitable type.
 fn lay_ponds(draft: &mut Draft<'_>, stock: &Stock, sampler: &mut Sampler) {
     let Some((piece, _)) = stock.iter().find(|(piece, _)| piece.idiom == Idiom::Obstacle) else { return };
     let blocks = draft.grid.regions(|cell| draft.is_wall(cell));

@@ -8,11 +8,11 @@ use crate::levels::palette::holds_avatar;
 use engine::Level;
 use engine::analysis::Motion;
 
-/// The number of consecutive free cells that a patrol needs in its direction of movement.
+/// The number of consecutive free cells that a sprite moving straight ahead needs in its direction.
 const LANE: usize = 5;
-/// The minimum distance in steps between the hero and hunters or sources.
+/// The minimum distance in steps between the hero and any hunter or spawner.
 const AWAY: usize = 6;
-/// The maximum fraction of a board's floor that may be narrow.
+/// The maximum fraction of a board's floor that may consist of narrow passages.
 const MAX_NARROW: f64 = 0.36;
 /// The maximum fraction of the area within the border that may be wall. Boards with many walls all look alike.
 const MAX_WALLS: f64 = 0.35;
@@ -90,7 +90,7 @@ impl<'k> Draft<'k> {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Returns the length of the stretch of open cells through a cell, along its column or its row.
+    /// Returns the number of consecutive open cells in a cell's column or row, counting the cell itself.
     fn lane(&self, cell: usize, is_vertical: bool) -> usize {
         let ways = if is_vertical { [(0, -1), (0, 1)] } else { [(-1, 0), (1, 0)] };
         let along = |way: (i32, i32)| {
@@ -103,8 +103,8 @@ impl<'k> Draft<'k> {
         1 + ways.into_iter().map(along).sum::<usize>()
     }
 
-    /// Returns the weight of a cell for placing a piece; 0 if the piece must not be in the cell. The cell itself counts
-    /// as free.
+    /// Returns the weight of a cell for placing a piece; 0 if the piece must not be in the cell. The cell's current
+    /// content is ignored.
     pub(crate) fn fit(&self, piece: &Piece, cell: usize) -> u32 {
         let [up, left, down, right] = self.walls_beside(cell);
         let walls = [up, left, down, right].into_iter().filter(|&wall| wall).count();
@@ -144,8 +144,8 @@ impl<'k> Draft<'k> {
         }
     }
 
-    /// Returns the weight of a cell outside gaps for a piece that belongs in gaps. Such a piece may extend a gap or a
-    /// wall.
+    /// Returns the weight of a cell that is not a gap, for a piece that belongs in gaps. Such a piece may extend a gap
+    /// or a wall.
     fn fit_of_barrier(&self, piece: &Piece, cell: usize) -> u32 {
         let own = |next: usize| self.cells[next] == piece.symbol;
         let barred = |next: usize| self.is_solid(next) && !self.grid.on_border(next);

@@ -1,4 +1,4 @@
-//! Edits: small changes to a board that are meaningful for its game.
+//! Small changes to a board that make sense in its game.
 
 use super::draft::Draft;
 use super::idiom::Idiom;
@@ -22,9 +22,9 @@ pub(crate) enum Edit {
     Shorten,
     /// Moves a gap, with its contents, along its wall.
     MoveGap,
-    /// Adds a piece of a kind.
+    /// Adds a piece.
     Add,
-    /// Removes a piece of a kind.
+    /// Removes a piece.
     Remove,
     /// Moves the hero's start.
     MoveHero,
@@ -52,7 +52,7 @@ impl Edit {
 }
 
 impl Draft<'_> {
-    /// Applies an edit. Returns `None` if the board has nothing to which the edit can apply. The result may be unsound.
+    /// Applies an edit. Returns `None` if the edit does not apply to anything on the board. The result may be unsound.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::MovePiece => self.move_piece(sampler),
@@ -77,8 +77,8 @@ impl Draft<'_> {
         Some(())
     }
 
-    /// Draws a free cell that fits a piece, other than its current cell. Pieces that stand in rows are placed next to
-    /// pieces of the same kind. Half of the moves are short.
+    /// Draws a free cell that fits a piece, other than its current cell. Pieces that stand in rows are often placed
+    /// next to pieces of the same kind. Half of the draws prefer cells near the current cell.
     fn draw_cell(&self, symbol: u8, from: Option<usize>, sampler: &mut Sampler) -> Option<usize> {
         let piece = self.kit.piece(symbol)?;
         let near = from.filter(|_| sampler.ratio(1, 2));

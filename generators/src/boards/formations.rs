@@ -1,4 +1,4 @@
-//! Formations: groups of things that look deliberately arranged.
+//! Formations, which are groups of pieces that look deliberately arranged.
 
 use crate::levels::grid::Grid;
 use base::Sampler;
@@ -9,9 +9,9 @@ const DRAWS: usize = 24;
 /// The arrangement of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Formation {
-    /// A row whose members are separated by this offset.
+    /// A row in which each member is displaced by this offset from the previous one.
     Row(i32, i32),
-    /// Pairs arranged side by side, row after row.
+    /// A block of two columns, filled row by row.
     Block,
     /// A zigzag, along a column if `true` and along a row otherwise.
     Zigzag(bool),
@@ -42,7 +42,7 @@ impl Formation {
         FORMATIONS[sampler.weighted(&weights).expect("the weights are positive")].0
     }
 
-    /// Returns the offset of a member from the anchor, by the member's index.
+    /// Returns the offset from the anchor to the member with the given index.
     fn offset(self, at: usize) -> (i32, i32) {
         const AROUND: [(i32, i32); 8] =
             [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)];
@@ -78,7 +78,7 @@ pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut S
             best = (value, cells);
         }
     }
-    // Members for which the formation has no room stand close to it.
+    // Members that do not fit into the formation stand close to it.
     let mut cells = best.1;
     while cells.len() < count {
         let room = (0..grid.len()).filter(|cell| weights[*cell] > 0 && !cells.contains(cell));

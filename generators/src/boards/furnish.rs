@@ -1,4 +1,4 @@
-//! Furnishing, which places every piece according to its idiom.
+//! The placement of pieces according to their idioms.
 
 use super::canvas::{Canvas, far_from};
 use super::dividers::{Stock, lay};
@@ -10,7 +10,7 @@ use super::plans::draw_plan;
 use crate::levels::grid::{FAR, WAYS};
 use base::{Sampler, Seed};
 
-/// The order in which pieces are placed, from the pieces that need the least room to the pieces that need the most.
+/// The order in which pieces are placed. In general, pieces that are harder to place come first.
 const ORDER: [Idiom; 13] = [
     Idiom::Crossing,
     Idiom::Exit,
@@ -33,7 +33,7 @@ const EMPTY: f64 = 0.32;
 const FRAGMENTS: usize = 3;
 
 /// Composes a board: a plan, the material of its dividers, the hero, and all pieces. Returns `None` if there is no room
-/// for everything.
+/// for everything, or if the board is unsound, too empty or too fragmented.
 pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     let sampler = &mut seed.child("board", 0).sampler();
     let size = kit.brief.size.unwrap_or_else(|| size(kit.brief.demand, sampler));

@@ -9,14 +9,14 @@ pub enum Idiom {
     /// A type that stops or kills the player until a rule opens, removes or disarms its sprites. The sprites belong in
     /// gaps, and in rows that divide a board.
     Barrier,
-    /// A type that stops or kills the player until a pushed or thrown object fills it. The sprites form a river across
-    /// the board.
+    /// A type whose sprites stop or kill the player until pushed or thrown objects fill them. The sprites form a river
+    /// across the board.
     Crossing,
     /// A type that stands still and interacts with its neighbours, such as soil, fuel, ice or planks. The sprites form
     /// rows and patches.
     Ground,
     /// A type that breaks under the player, or changes into an obstacle. The sprites belong in gaps, where they form a
-    /// road across.
+    /// road to the other side.
     Road,
     /// A type that permanently stops the player like a wall, without being a wall. The sprites form gulfs, ponds, and
     /// lines crossed by roads.
@@ -131,7 +131,7 @@ fn is_partner(analysis: &Analysis, stype: SpriteType, wanted: impl Fn(bool) -> b
     sinks.into_iter().any(|sink| sink.partner == stype && wanted(sink.fills))
 }
 
-/// Returns the interactions in which the type is on either side, each with that side.
+/// Returns the interactions that involve the type, each with the type's side.
 fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encounter, Side)> {
     let first = move |met: &&Encounter| met.second.is_some() && analysis.applies(met.first, stype);
     let second = move |met: &&Encounter| met.second.is_some_and(|written| analysis.applies(written, stype));

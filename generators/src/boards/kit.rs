@@ -18,7 +18,7 @@ pub(crate) struct Piece {
     pub(crate) idiom: Idiom,
     /// `true` if the piece harms the player or creates harmful sprites.
     pub(crate) harmful: bool,
-    /// `true` if the brief specifies the number of these pieces.
+    /// `true` if the brief specifies the number of pieces of this kind.
     pub(crate) asked: bool,
     /// The minimum and maximum number of pieces per board.
     pub(crate) counts: (usize, usize),
@@ -76,7 +76,7 @@ impl<'a> Kit<'a> {
                     .is_none_or(|piece| matches!(piece.idiom, Idiom::Hazard | Idiom::Obstacle)))
     }
 
-    /// Returns `true` if the avatar can stand in a cell with the character at the start of a level.
+    /// Returns `true` if the avatar can stand in a cell with the given character at the start of a level.
     pub(crate) fn is_open(&self, symbol: u8) -> bool {
         if self.piece(symbol).is_some_and(|piece| piece.idiom.moves()) {
             return true;
@@ -158,7 +158,7 @@ impl<'a> Kit<'a> {
         }
     }
 
-    /// Raises the numbers of pushed types and their targets to the numbers that a win needs.
+    /// Raises the numbers of pushed sprites and of their targets to the numbers that a win needs.
     fn match_pushed(&self, drawn: &mut [(Piece, usize)]) {
         let remove = &self.analysis.aims().remove;
         let number = |drawn: &[(Piece, usize)], stype: SpriteType| {

@@ -8,8 +8,8 @@ const SMALL: usize = 2;
 
 impl Draft<'_> {
     /// Returns the sound boards that each lack one small group, ordered from the smallest group to the largest. A group
-    /// consists of walls away from the border, or of one piece that is above its minimum number and does not count
-    /// towards any goal.
+    /// consists of walls away from the border, or of one piece that is not counted by any goal and whose number exceeds
+    /// the minimum.
     pub(crate) fn tidied(&self) -> Vec<Self> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let walls = self.grid.regions(|cell| self.is_wall(cell));

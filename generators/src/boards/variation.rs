@@ -11,15 +11,16 @@ use engine::{Action, Analysis, Level, Outcome};
 
 /// The number of compositions to try per board.
 const COMPOSITIONS: u64 = 40;
-/// The number of edits to draw before the board is left unchanged.
+/// The maximum number of edits to try when a board is edited.
 const DRAWS: usize = 40;
-/// The number of mutations to try until the player survives the first ticks on the resulting board.
+/// The maximum number of mutations to try until one yields a board on which the player survives the first ticks.
 const MUTATIONS: usize = 6;
 /// The number of ticks that a player who does nothing should survive.
 const GRACE: usize = 10;
-/// The number of fragments that a board may always have; see [`Draft::fragments`].
+/// The maximum number of fragments after an edit, unless the board had more before; see [`Draft::fragments`].
 const FRAGMENTS: usize = 2;
-/// The size that the largest empty rectangle on a board may always have, as a fraction of the area within the border.
+/// The maximum area of the largest empty rectangle after an edit, as a fraction of the area within the border. If the
+/// rectangle was larger before the edit, it must not grow.
 const EMPTY: f64 = 0.25;
 
 /// Boards for any game, as search candidates. The boards are composed from plans and idioms, and changed by edits.
@@ -56,15 +57,14 @@ impl<'a> BoardVariation<'a> {
         Draft::of(&self.kit, level).emptiness()
     }
 
-    /// Returns `true` if a player who does nothing survives the first ticks in one random future.
+    /// Returns `true` if a player who does nothing survives the first ticks with one fixed random seed.
     fn is_safe(&self, level: &Level) -> bool {
         let game = self.kit.analysis.game();
         let mut state = game.start(level, Seed::from_text("first ticks"));
         (0..GRACE).all(|_| !matches!(game.step(&mut state, Action::Nil), Outcome::Lost | Outcome::Stopped(_)))
     }
 
-    /// Returns a sound board that differs by one to three more edits. If no edits lead to a sound board, returns the
-    /// board unchanged.
+    /// Returns a sound board after one to three edits. If no edit leads to a sound board, returns the board unchanged.
     fn edited<'k>(&'k self, draft: Draft<'k>, sampler: &mut Sampler) -> Draft<'k> {
         let mut edits = 1 + sampler.weighted(&[5, 3, 2]).unwrap_or(0);
         let mut draft = draft;
@@ -107,8 +107,8 @@ impl Variation for BoardVariation<'_> {
         made.unwrap_or_else(|| parent.clone())
     }
 
-    /// Returns the first board with a part of the second board, if both have the same size and the result is sound.
-    /// Otherwise, returns an edited version of the first board.
+    /// Returns the first board with its right part replaced by that of the second, if both have the same size and the
+    /// result is sound. Otherwise, returns an edited version of the first board.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (mut child, other) = (Draft::of(&self.kit, one), Draft::of(&self.kit, two));
         let cut = sampler.between(3, child.grid.columns.max(7) - 4);

@@ -95,7 +95,7 @@ pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) ->
     if clauses.is_empty() { format!("{start}.") } else { format!("{start} has to {}.", clauses.join("; ")) }
 }
 
-/// Returns the winning conditions as the guide words them, but with names written as ordinary English.
+/// Returns the winning conditions in the words of the engine's [`Guide`], but with names written as ordinary English.
 pub(crate) fn goal(analysis: &Analysis) -> String {
     let names: Vec<&str> = analysis.game().sprite_types().map(|stype| analysis.game().name(stype)).collect();
     let word = |word: &str| {

@@ -1,4 +1,4 @@
-//! The kinds of games, distinguished by the way to win.
+//! The kinds of games, distinguished by the way in which the player wins.
 
 use base::Sampler;
 use serde::{Deserialize, Serialize};

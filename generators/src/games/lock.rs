@@ -119,7 +119,7 @@ mod tests {
     use base::Seed;
     use engine::{Action, Outcome};
 
-    /// A key opens one door, one tick before the avatar enters it. A plank carries the avatar once.
+    /// A key opens one door, one tick before the avatar enters the door. A plank carries the avatar once.
     #[test]
     fn doors_use_up_keys_and_planks_carry_once() {
         let game = LockRules { kinds: 1, has_planks: true, has_gems: false }.game();

@@ -77,7 +77,7 @@ impl Mask {
         pool.truncate(used.len() - needed.len());
         pool.extend(needed);
         sampler.shuffle(&mut pool);
-        // If a game uses more characters than the pool contains, the last ones are kept.
+        // If a game uses more characters than the pool contains, the surplus characters stay unchanged.
         let symbols = used.iter().enumerate().map(|(at, &symbol)| (symbol, *pool.get(at).unwrap_or(&symbol)));
         let symbols = symbols.chain(unmapped_builtins());
         Mask { names, symbols: Symbols(symbols.collect()), colors: colors.collect() }

@@ -1,4 +1,4 @@
-//! Games as texts: their kinds, their English nouns, and twins with different names.
+//! The texts of games, the kinds of games, and twins of games under different names.
 //!
 //! The games themselves are composed from kernels ([`crate::kernels`]). The names in a rethemed game come from a scene
 //! and fit the roles of the types (`casting.rs`). The names in a masked game have no meaning.
@@ -39,6 +39,6 @@ pub struct GeneratedGame {
     pub kind: Kind,
     /// `true` if sprites move even while the player does nothing.
     pub real_time: bool,
-    /// The kernel, its variants and the scene.
+    /// The patterns from which the game was generated: the kernel, its variants and the scene.
     pub patterns: Vec<String>,
 }

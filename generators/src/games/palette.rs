@@ -2,7 +2,7 @@
 
 use crate::kernels::words::scene::Scene;
 
-/// The characters for types whose letters are all in use.
+/// The characters for types whose names contain no free letter.
 const SPARE: &str = "123456789*+=%&@?!^~$";
 
 /// Returns a level character for a type. The character is the first free letter of its name, in lower or upper case, or

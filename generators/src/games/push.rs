@@ -86,7 +86,7 @@ impl PushRules {
     /// The characters used in the game's levels.
     pub const SYMBOLS: &str = ".wAcbousyznk";
 
-    /// The number of ticks that a stray takes to move one cell.
+    /// The number of ticks that a stray (a randomly wandering sprite) takes to move one cell.
     pub(crate) const COOLDOWN: usize = 3;
     /// The number of ticks that the spark takes to burn one cell of fuse.
     pub(crate) const BURN: usize = 25;

@@ -16,9 +16,9 @@ use engine::syntax::{MappingLine, SpriteLine};
 use engine::{Description, Game, SpriteType};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The directions that form the endings of type names that differ only in direction.
+/// The direction suffixes of type names that differ only in direction.
 const DIRECTIONS: [&str; 4] = ["Up", "Left", "Down", "Right"];
-/// The prefix for the name of a type into which another type turns at its destination.
+/// The name prefix of a type into which objects turn at their destination.
 const SETTLED: &str = "settled";
 /// Adjectives that distinguish types if a scene runs out of words for their role.
 const ADJECTIVES: [&str; 8] = ["other", "old", "small", "great", "odd", "pale", "spare", "far"];
@@ -228,7 +228,7 @@ impl Assigner<'_> {
         self.analysis.game().sprite_type(name)
     }
 
-    /// Draws one of `words` that is free. If none is, returns a word with an adjective or a number.
+    /// Draws one of `words` that is free. If none of them is free, returns a word with an adjective or a number.
     fn word(&mut self, words: Vec<&'static str>) -> String {
         let free = self.free(words.clone());
         if !free.is_empty() {

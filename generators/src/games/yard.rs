@@ -1,5 +1,5 @@
-//! Rules of yards. Among carts that follow signs, the avatar carries parcels to depots, one at a time, before a fuse
-//! burns down.
+//! Rules of yards. The avatar carries parcels to depots, one at a time, among carts that follow signs, and before a
+//! fuse burns down.
 
 use crate::levels::FuseSymbols;
 use engine::Game;
@@ -54,7 +54,7 @@ impl YardRules {
     /// The number of ticks that the spark takes to burn one cell of fuse.
     pub(crate) const BURN: usize = 14;
 
-    /// The number of ticks that a stray takes to move one cell.
+    /// The number of ticks that a stray (a randomly wandering sprite) takes to move one cell.
     pub(crate) const COOLDOWN: usize = 2;
 
     /// Returns the number of kinds of parcels.
@@ -62,12 +62,12 @@ impl YardRules {
         self.kinds
     }
 
-    /// Returns `true` if there are points.
+    /// Returns `true` if there are points, which are signs that reverse their direction.
     pub fn has_points(self) -> bool {
         self.has_points
     }
 
-    /// Returns `true` if there are wagons.
+    /// Returns `true` if there are wagons, which are carts that take two ticks per cell.
     pub fn has_wagons(self) -> bool {
         self.has_wagons
     }

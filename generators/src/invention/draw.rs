@@ -1,4 +1,4 @@
-//! Drawing of inventions, which is the constructive method.
+//! The constructive method of inventing games, which draws inventions at random.
 
 use super::fiction::Noun;
 use super::genome::{Invention, apart};
@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// The number of partitions to draw for each choice of mechanics.
+/// The number of port partitions to draw per choice of mechanics.
 const PARTITIONS: usize = 24;
 /// The maximum number of choices of mechanics per draw.
 const CHOICES: u64 = 400;
@@ -39,8 +39,8 @@ impl Default for InventionConfig {
     }
 }
 
-/// Parts that draws should contain; see [`Census::lead`]. If no sound draw contains all of them, the mechanic is given
-/// up first, then the ending.
+/// Parts that draws should contain; see [`Census::lead`]. If no sound draw contains all of them, the mechanic is
+/// dropped first, and then the ending.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lead {
     /// The name of a mechanic.
@@ -91,9 +91,9 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the parts that lead a draw: the danger and the ending for `turn`, and the mechanic for `mechanic_turn`.
-    /// Parts take turns from least to most used, and the seed breaks ties. Thus, games that are drawn independently
-    /// differ if their turns differ.
+    /// Returns the parts that a draw should contain: the danger and the ending for `turn`, and the mechanic for
+    /// `mechanic_turn`. Parts take turns from least to most used, and the seed breaks ties. Thus, games that are drawn
+    /// independently differ if their turns differ.
     pub fn lead(&self, seed: Seed, turn: usize, mechanic_turn: usize) -> Lead {
         let next = |(kind, part): (&str, u64), turn: usize, is_part: fn(&Mechanic) -> bool| {
             let parts = Mechanic::all().iter().filter(|mechanic| is_part(mechanic));
@@ -115,7 +115,7 @@ impl Census {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// Returns the total number of uses of all couplings in an invention. A lower total makes an invention look newer.
+    /// Returns the total use count of an invention's couplings. A lower total makes an invention look newer.
     fn familiarity(&self, drawn: &Invention) -> u32 {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
@@ -131,7 +131,7 @@ impl Census {
     }
 
     /// Returns the weight of a mechanic or ending in a draw. The weight decreases with the square of the number of uses
-    /// relative to the mean. It is higher for mechanics that are rarely sound.
+    /// relative to the mean. It is higher for mechanics that are rarely part of a sound draw.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
         let (kind, prior) =
             if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
@@ -145,7 +145,7 @@ impl Census {
 
 /// The number of samples used to measure how often each mechanic is part of a sound draw.
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic whose draws are sound with average frequency.
+/// The rarity of a mechanic that is part of sound draws as often as the average mechanic.
 const USUAL: u64 = 16;
 /// The maximum rarity of a mechanic.
 const RAREST: u64 = 64;
@@ -178,7 +178,7 @@ fn rarity(name: &str) -> u64 {
 }
 
 /// Returns `true` if two games, given by their patterns, share two mechanics, or a mechanic and the ending. Players
-/// would take them for the same game.
+/// would consider them to be the same game.
 pub fn share_idea(one: &[String], two: &[String]) -> bool {
     let is_part = |pattern: &str| pattern.starts_with("mechanic/") || pattern.starts_with("ending/");
     one.iter().filter(|pattern| is_part(pattern) && two.contains(pattern)).count() > 1
@@ -191,8 +191,8 @@ impl Invention {
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let any_mechanic = Lead { mechanic: None, ..config.lead };
         let danger_only = Lead { ending: None, ..any_mechanic };
-        // All draws may be unsound if the leads do not fit any other part, or if the census favours mechanics that do
-        // not fit together.
+        // All draws may be unsound if the requested parts do not fit any other part, or if the census favours mechanics
+        // that do not fit together.
         let empty = Census::default();
         let tries = [
             (config.lead, census, "choice"),
@@ -232,7 +232,7 @@ impl Invention {
         })
     }
 
-    /// Draws once, for statistics.
+    /// Makes a single draw, for statistics.
     ///
     /// # Errors
     /// Returns the unmet condition.
@@ -264,7 +264,7 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending, by weight. The lead's mechanics come first. At least one mechanic is a
+/// Draws different mechanics and an ending, by weight. The requested mechanics come first. At least one mechanic is a
 /// danger that acts by itself.
 fn choose(
     count: usize,

@@ -20,7 +20,7 @@ pub struct Invention {
     pub(super) mechanics: Vec<&'static Mechanic>,
     /// The type of each port, in the order of [`ports`].
     pub(super) partition: Vec<u8>,
-    /// Each mechanic's numbers.
+    /// The values of each mechanic's numeric parameters.
     pub(super) values: Vec<Vec<u32>>,
     /// The seed for the nouns, the title and the story.
     pub(super) fiction: Seed,
@@ -176,8 +176,8 @@ impl Invention {
         Ok(Invented { game, mechanics: own_lines, idioms, own_types })
     }
 
-    /// Returns a digest of the rules that ignores the texts and the tick limit. Inventions with the same key have the
-    /// same rules apart from these.
+    /// Returns a digest of the rules, ignoring the texts and the tick limit. Two inventions with the same key differ at
+    /// most in their texts and tick limits.
     pub fn key(&self) -> Digest {
         let names = self.mechanics().join(" ");
         Digest::of(format!("{names} {:?} {:?}", self.partition, self.values).as_bytes())

@@ -1,4 +1,4 @@
-//! Mechanics, which are files with clauses about ports.
+//! Mechanics. A mechanic is a file with VGDL clauses about ports, which are roles that the mechanic leaves open.
 
 use super::fiction::Predicates;
 use crate::games::Kind;
@@ -74,7 +74,7 @@ pub(crate) enum Tag {
     Foe,
     /// The player has to bring the object to a place.
     Brought,
-    /// The object becomes a danger without any action of the player.
+    /// The object becomes a danger without any action by the player.
     Presses,
 }
 
@@ -128,7 +128,7 @@ pub(crate) enum Origin {
     State {
         port: String,
         adjective: String,
-        /// `true` if the rules of other mechanics for the port also apply to the state.
+        /// `true` if the rules that other mechanics have for the port also apply to the state.
         is_still: bool,
     },
     /// A separate object whose noun has the given predicates.

@@ -5,7 +5,7 @@ use super::mechanic::{Body, Mechanic, Port, Tag};
 use crate::boards::Idiom;
 use std::collections::BTreeSet;
 
-/// A port of a game's mechanics, given by the index of the mechanic and the index of the port in it.
+/// A port, given by the index of its mechanic and its index within the mechanic.
 pub(crate) type PortId = (usize, usize);
 
 /// A type that fills one or more ports.
@@ -25,18 +25,18 @@ impl Merged {
         (mechanics.len() == ports.len()).then_some(Merged { ports, body })
     }
 
-    /// Returns `true` if one of the type's ports has the tag.
+    /// Returns `true` if one of the type's ports has the given tag.
     pub(crate) fn has(&self, tag: Tag) -> bool {
         self.ports.iter().any(|(_, port)| port.tags.contains(&tag))
     }
 
-    /// Counts the type's ports with the tag.
+    /// Counts the type's ports with the given tag.
     pub(crate) fn count(&self, tag: Tag) -> usize {
         self.ports.iter().filter(|(_, port)| port.tags.contains(&tag)).count()
     }
 
-    /// Returns `true` if an ending needs the type's sprites to exist until the player takes them, so that any other
-    /// loss of them ends the game.
+    /// Returns `true` if an ending needs the type's sprites to exist until the player takes them. Any other loss of
+    /// such a sprite ends the game.
     pub(crate) fn is_kept_for(&self, ending: usize) -> bool {
         let is_taken = |((mechanic, _), port): &(PortId, &Port)| {
             *mechanic == ending && port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Removed)

@@ -2,8 +2,8 @@
 //!
 //! A [`Mechanic`](mechanic::Mechanic) consists of a few VGDL clauses about open roles, which are called its *ports*. An
 //! [`Invention`] combines mechanics and an ending, and partitions the ports: the ports in one class are merged into one
-//! type. `soundness.rs` rejects partitions by their tags before anything is compiled. `emit/` writes the rules of the
-//! remaining partitions, and `fiction/` finds nouns that suit everything that a type does.
+//! type. `soundness.rs` rejects partitions by the tags of their ports before anything is compiled. `emit/` writes the
+//! rules of the remaining partitions, and `fiction/` finds nouns that suit everything that a type does.
 
 mod draw;
 mod emit;

@@ -21,7 +21,7 @@ pub enum Unsound {
     NoTension,
     /// The player cannot influence a mover.
     NoAgency,
-    /// The goal is met by losing objects, or nothing removes the goal.
+    /// The goal is met by losing objects, or nothing removes the objects of the goal.
     Goal,
     /// No danger that acts by itself has a second use.
     NoPressure,
@@ -105,7 +105,7 @@ pub(super) fn is_idle(merged: &Merged) -> bool {
 /// Returns `true` if a goal can be achieved. Either the ending takes or requires the goal's type, or a different
 /// mechanic removes it. A type that only has to be removed must exist from the beginning and must not be produced.
 fn has_honest_goal(merged: &Merged) -> bool {
-    // An ending that is lost with its last goal on the board would be lost before another mechanic produces more.
+    // If an ending is lost with its last goal on the board, the loss comes before another mechanic produces more goals.
     let can_run_out =
         |(_, port): &(PortId, &Port)| port.tags.contains(&Tag::Goal) && port.tags.contains(&Tag::Lost);
     if merged.has(Tag::Goal)
@@ -175,8 +175,8 @@ fn is_influenced(merged: &Merged) -> bool {
     merged.body != Body::Mover || merged.has(Tag::Led) || (is_affected && !merged.has(Tag::Brought))
 }
 
-/// Returns `true` if a danger that spreads by itself is also a place to which the ending wants things brought. Such a
-/// danger would reach the things without the player's help.
+/// Returns `true` if a danger that spreads by itself is also a place to which the ending requires objects to be
+/// brought. Such a danger would reach the objects without the player's help.
 fn wins_alone(merged: &Merged, mechanics: usize) -> bool {
     let is_place = |((mechanic, _), port): &(PortId, &Port)| {
         mechanic + 1 == mechanics && port.tags.contains(&Tag::Tool) && !port.tags.contains(&Tag::Spent)
@@ -184,7 +184,7 @@ fn wins_alone(merged: &Merged, mechanics: usize) -> bool {
     merged.has(Tag::Presses) && merged.body != Body::Mover && merged.ports.iter().any(is_place)
 }
 
-/// Returns `true` if a type becomes a danger without any action of the player, and a different mechanic also uses it. A
+/// Returns `true` if a type becomes a danger without any action by the player, and a different mechanic also uses it. A
 /// danger that only the player can cause is easily avoided. A danger that takes things away without harming the player
 /// counts only if it takes something that the ending needs.
 fn is_pressure(merged: &Merged, types: &[Merged]) -> bool {

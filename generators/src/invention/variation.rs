@@ -24,8 +24,8 @@ enum Change {
 /// The kinds of change with their weights.
 const CHANGES: [(Change, u32); 3] = [(Change::Mechanic, 4), (Change::Merge, 5), (Change::Number, 3)];
 
-/// Inventions as search candidates. Candidates are drawn like constructive inventions. Mutation changes a mechanic's
-/// numbers, a merge or a whole mechanic. Crossover replaces a mechanic with one from the other parent.
+/// Inventions as search candidates. New candidates are drawn as in the constructive method. Mutation changes a
+/// mechanic's numbers, a merge or a whole mechanic. Crossover replaces a mechanic with one from the other parent.
 ///
 /// The rules of every candidate compile without errors or warnings. Cost: a few milliseconds per mutation.
 #[derive(Clone, Debug, Default)]
@@ -68,8 +68,8 @@ impl InventionVariation {
 }
 
 impl Invention {
-    /// Returns the same invention with a different mechanic at an index. The ports of the new mechanic are merged from
-    /// scratch.
+    /// Returns the same invention with a different mechanic at the given index. The ports of the new mechanic are
+    /// merged from scratch.
     fn replaced(&self, at: usize, mechanic: &'static Mechanic, sampler: &mut Sampler) -> Option<Invention> {
         let mut mechanics = self.mechanics.clone();
         if mechanics.iter().any(|other| other.name == mechanic.name) {

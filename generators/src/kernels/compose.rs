@@ -54,7 +54,7 @@ pub struct Course {
     symbols: BTreeMap<String, char>,
 }
 
-/// A course level that nobody has played yet.
+/// A level of a course, before anyone has played it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CourseLevel {
     /// The level, in the game's characters.
@@ -172,7 +172,7 @@ impl Choices<'_> {
         text
     }
 
-    /// Returns the castings of all types in the game.
+    /// Returns all types in the game, each with the source of its noun.
     fn roles(&self) -> impl Iterator<Item = (&String, &Casting)> {
         let variants = self.variants.iter().map(|&variant| &self.kernel.variants[variant].roles);
         self.kernel.roles.iter().chain(variants.flatten())
@@ -181,7 +181,7 @@ impl Choices<'_> {
     /// Assigns a unique noun to every type.
     fn cast(&self, sampler: &mut Sampler) -> Result<Nouns, GenerateError> {
         let mut nouns = Nouns::new();
-        // The nouns of roles that types have only in some state.
+        // The nouns of roles that only states refer to, and that no type has by itself.
         let mut shared = Nouns::new();
         let mut draw = |role: &str, taken: &Nouns| {
             let mut free = self.scene.nouns(role, &self.kernel.name).unwrap_or_default();

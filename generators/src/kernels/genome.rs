@@ -57,8 +57,8 @@ impl KernelGenome {
     }
 
     /// Draws a game from the kernel `name`, in a form accepted by `is_open` and a scene that is not in `taken`. If all
-    /// fitting scenes are taken, one of them is reused. Returns `None` if the kernel does not exist, or if no form is
-    /// open.
+    /// fitting scenes are taken, one of them is reused. Returns `None` if the kernel does not exist, or if `is_open`
+    /// accepts none of its forms.
     pub fn of_kernel(
         name: &str,
         is_open: impl Fn(Option<&str>) -> bool,
@@ -74,7 +74,7 @@ impl KernelGenome {
         Some(KernelGenome { scene, ..drawn })
     }
 
-    /// Returns a game for each form of a kernel without variants and, if the form has variants, a game with all of
+    /// Returns, for each form of a kernel, a game without variants and, if the form has variants, a game with all of
     /// them. Returns no games if the kernel does not exist.
     pub fn all_of(kernel: &str) -> Vec<KernelGenome> {
         let named = Kernel::all().iter().filter(|other| other.name == kernel);
@@ -138,7 +138,7 @@ impl KernelGenome {
         &self.kernel.name
     }
 
-    /// Returns the form of the game's kernel; `None` for the kernel itself.
+    /// Returns the name of the form of the game's kernel; `None` for the unmodified kernel.
     pub fn form(&self) -> Option<&str> {
         self.kernel.form.as_deref()
     }
@@ -155,7 +155,7 @@ impl KernelGenome {
         named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)
     }
 
-    /// Returns a kernel's forms, starting with `None` for the kernel itself.
+    /// Returns the names of a kernel's forms, starting with `None` for the unmodified kernel.
     pub fn forms(kernel: &str) -> Vec<Option<&'static str>> {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         let forms =
@@ -169,12 +169,13 @@ impl KernelGenome {
         Kind::ALL.iter().copied().flat_map(of_kind).map(|kernel| kernel.name.as_str())
     }
 
-    /// Returns `true` if the game always has a tick limit. Otherwise, it has one only if it might never end without.
+    /// Returns `true` if the game always has a tick limit. Otherwise, it has a limit only if it might never end without
+    /// one.
     pub fn has_clock(&self) -> bool {
         self.habits.has_clock
     }
 
-    /// Returns the same game with a different tick limit, or without one. The goal to survive for some ticks is
+    /// Returns the same game with a different tick limit, or without one. A goal of surviving for some ticks is
     /// unaffected.
     #[must_use]
     pub fn timed(&self, ticks: Option<u32>) -> KernelGenome {

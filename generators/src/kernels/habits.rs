@@ -1,4 +1,5 @@
-//! An author's habits in a game: the points, board edges, sizes and tick limits that a kernel leaves open.
+//! The choices that depend on an author's habits: the points, board edges, sizes and tick limits that a kernel leaves
+//! open.
 
 use super::course::Space;
 use base::Seed;
@@ -6,7 +7,7 @@ use engine::Description;
 use engine::syntax::{InteractionLine, Param, SpriteLine};
 use std::collections::BTreeMap;
 
-/// An author's habits in a game. They affect the game's appearance and scoring, but not its dilemma.
+/// An author's habits in a game, drawn at random. They affect the game's appearance and scoring, but not its dilemma.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Habits {
     /// The factor by which all points are multiplied.
@@ -15,7 +16,7 @@ pub(crate) struct Habits {
     pub(crate) space: Space,
     /// The player's colour, unless the floor or walls have the same colour.
     pub(crate) hero: &'static str,
-    /// `true` if the game always has a tick limit. Otherwise, it has one only if it might never end without.
+    /// `true` if the game always has a tick limit. Otherwise, it has a limit only if it might never end without one.
     pub(crate) has_clock: bool,
 }
 
@@ -49,7 +50,7 @@ impl Habits {
         Habits { unit, edge, space: Space::draw(&mut of("space")), hero, has_clock: of("clock").ratio(1, 4) }
     }
 
-    /// Applies the habits to a game's rules. Returns the edge of the game's levels.
+    /// Applies the habits to a game's rules. Returns the kind of edge that the game's levels have.
     pub(crate) fn apply(&self, description: &mut Description) -> Edge {
         for line in &mut description.interactions {
             drop_penalty_of_death(line);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// The minimum number of columns and rows. Smaller boards have no room inside the border.
 const MIN_SIDE: usize = 4;
-/// The maximum number of columns and rows. A level's cost grows with the square of its number of cells.
+/// The maximum number of columns and rows. The cost of generating a level grows with the square of its number of cells.
 const MAX_SIDE: usize = 64;
 
 base::with_defaults! {

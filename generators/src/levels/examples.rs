@@ -174,8 +174,8 @@ impl Examples {
         (counts[0], counts[counts.len() / 2], counts[counts.len() - 1])
     }
 
-    /// Returns `true` if, on average, sprites of type `one` are at least a third of the board lower than sprites of
-    /// type `two`. Also returns `true` if either type does not occur.
+    /// Returns `true` if the average position of sprites of type `one` is lower on the board than that of type `two`,
+    /// by at least a third of the board's height. Also returns `true` if either type does not occur.
     pub(crate) fn is_below(&self, one: SpriteType, two: SpriteType) -> bool {
         match (self.placement(one).height(), self.placement(two).height()) {
             (Some(one), Some(two)) => one > two + 1.0 / 3.0,
@@ -183,7 +183,7 @@ impl Examples {
         }
     }
 
-    /// Draws `true` if the walls should be mirrored from left to right, with the probability found in the examples.
+    /// Decides at random whether to mirror the walls from left to right, with the probability found in the examples.
     pub(crate) fn draw_mirrored(&self, sampler: &mut Sampler) -> bool {
         sampler.ratio(self.mirrored, self.boards.len())
     }
@@ -209,7 +209,7 @@ impl Examples {
             rows: nearest(one.rows, two.rows).clamp(rows.0, rows.1),
         };
         let own = between((one.columns * one.rows) as f64, (two.columns * two.rows) as f64);
-        // A board whose size differs from the examples gets proportionally more or fewer sprites, but at least one.
+        // A board larger or smaller than the examples gets proportionally more or fewer sprites, but at least one.
         let scale = if own > 0.0 { grid.len() as f64 / own } else { 1.0 };
         let scale = if (0.8..=1.25).contains(&scale) { 1.0 } else { scale };
         let scaled = |count: usize| (count as f64 * scale + 0.5) as usize;

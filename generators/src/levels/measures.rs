@@ -6,8 +6,8 @@ use super::symmetry::{LevelSimilarity, Mirror};
 use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Level};
 
-/// The number of goal sprites at which their measure is half of its maximum. The same number applies to fully weighted
-/// enemies next to the avatar and their measure.
+/// The amount at which a saturating measure reaches half of its maximum. It is a number of goal sprites, or of enemies
+/// with full weight next to the avatar.
 const HALF: f64 = 4.0;
 /// The number of steps at which nearness is half of its maximum.
 const NEAR: f64 = 4.0;
@@ -52,13 +52,13 @@ pub struct LevelMeasures {
     marks: Vec<Mark>,
 }
 
-/// The properties of a character that the measures use.
+/// The properties of a character, as used by the measures.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
     is_avatar: bool,
     is_ground: bool,
     is_wall: bool,
-    /// `true` if the avatar can eventually walk onto the character.
+    /// `true` if the avatar can eventually enter a cell with the character.
     is_open: bool,
     is_goal: bool,
     /// The degree of harm: 1.0 for harmful sprites that move or spawn, 0.5 for other harmful sprites, and 0.0 for
@@ -125,7 +125,7 @@ impl Mark {
     }
 }
 
-/// A level as the properties of its cells.
+/// A level, represented by the properties of its cells.
 struct Marked {
     grid: Grid,
     marks: Vec<Mark>,

@@ -69,8 +69,8 @@ impl Palette {
         })
     }
 
-    /// Returns `true` if, for the avatar, a character can represent the empty cell. The cell must not contain anything
-    /// that the avatar collects, that hurts it or that blocks it.
+    /// Returns `true` if a character can represent the empty cell. Such a character places nothing that the avatar
+    /// collects, and nothing that hurts or blocks the avatar.
     pub(crate) fn is_bearable(analysis: &Analysis, symbol: u8) -> bool {
         let places = analysis.game().places(symbol);
         let plain = |stype: &SpriteType| match analysis.role(*stype) {

@@ -25,7 +25,7 @@ pub(crate) struct Placement {
     beside: BTreeMap<(usize, SpriteType), usize>,
     /// The directions and types, as in `beside`, that almost always occur next to the type.
     companions: Vec<(usize, SpriteType)>,
-    /// The number of sprites for which the cell mirrored from left to right contains a sprite of the same type.
+    /// The number of sprites whose left-right mirror cell contains a sprite of the same type.
     mirrored: usize,
     /// The number of sprites next to a sprite of the same type.
     grouped: usize,

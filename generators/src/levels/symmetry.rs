@@ -15,8 +15,8 @@ const OUTSIDE: u8 = 0;
 
 /// Compares a game's levels up to rotations and reflections.
 ///
-/// Rules may distinguish directions, for example if objects fall or drive from left to right. The image of a level may
-/// therefore play differently, but it still does not count as a new level.
+/// Rules may distinguish directions, for example if objects fall or drive from left to right. A rotated or mirrored
+/// level may therefore play differently, but it still does not count as a new level.
 #[derive(Clone, Debug)]
 pub struct LevelSimilarity {
     /// For each character, the first character that places the same sprites.
@@ -31,7 +31,7 @@ pub struct LevelSimilarity {
 }
 
 impl LevelSimilarity {
-    /// Creates the comparison for a game. Cost: O(characters²).
+    /// Creates a comparator for the levels of a game. Cost: O(characters²).
     pub fn of(analysis: &Analysis) -> LevelSimilarity {
         let palette = Palette::of(analysis);
         let places = |symbol: u8| {

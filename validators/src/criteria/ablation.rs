@@ -48,7 +48,7 @@ const DECISION: Budget = Budget(300);
 const LOOK_AHEAD: u32 = 20;
 /// The maximum number of ticks per episode of the searching player.
 const PLAY: usize = 400;
-/// The divisor of a rule's calls that gives the budget for proving the rule idle.
+/// The number by which a rule's calls are divided to get the budget for proving the rule idle.
 const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.
@@ -262,8 +262,8 @@ struct Futures<'a> {
 }
 
 impl Futures<'_> {
-    /// Returns `true` if a future ends differently without the rule, `true` if the board ever looks
-    /// different, and the number of calls.
+    /// Returns two flags and the number of calls. The first flag is `true` if a future ends differently without the
+    /// rule. The second is `true` if the board ever looks different.
     fn compare(&self, seed: Seed) -> (bool, bool, u64) {
         // A state contains predictions for its own game, so each of the two games replays the prefix to obtain its own
         // state.

@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 /// A state of a level, drawn as text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Board {
-    /// The rows from top to bottom, with one character per cell that represents the topmost sprite.
+    /// The rows from top to bottom, with one character per cell. Each character represents the topmost sprite in the
+    /// cell.
     pub rows: Vec<String>,
     /// The type that each character on the board represents.
     pub legend: Vec<(char, String)>,

@@ -11,8 +11,7 @@ use engine::{Analysis, Game, Level, SpriteClass, SpriteType, describe, swapped_r
 
 /// The maximum number of chains to report, one per winning termination.
 const MAX_CHAINS: usize = 3;
-/// The maximum product of the number of cells and the number of interactions at which swapped rules are still searched
-/// for.
+/// The maximum effort of a search for swapped rules: the number of cells times the number of interactions.
 const MAX_EFFORT: usize = 1 << 18;
 
 /// Rewrites the failure of a level that is proven unwinnable. Adds the chain of causes, and the rule whose sides are

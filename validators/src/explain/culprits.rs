@@ -1,4 +1,4 @@
-//! Searches for the line of a game that is responsible if a level is unwinnable or has no known win.
+//! Searches for the line of a game that is to blame for a level that is unwinnable or has no known win.
 //!
 //! The module changes one line of the game at a time, and searches for a win in the changed game. A win proves that the
 //! changed game can be won. It proves that a change is necessary only if the original level is proven unwinnable.
@@ -13,9 +13,10 @@ use engine::analysis::{Condition, EffectSummary, Motion, Role};
 use engine::syntax::{InteractionLine, Param, SpriteLine, Word};
 use engine::{Analysis, Description, Episode, Game, Meeting, SpriteType};
 
-/// The divisor of the budget of `winnable` that gives the total budget of all these searches.
+/// The number by which the budget of `winnable` is divided to get the total budget for searches in changed games.
 const SHARE: u64 = 2;
-/// In a stochastic game, the fraction of a search's budget that may be spent on searching with all randomness foreseen.
+/// The fraction of a search's budget that may be spent, in a stochastic game, on searching with all randomness
+/// foreseen.
 const FORESIGHT: f64 = 0.4;
 /// The maximum number of lines to report.
 const MAX_NAMED: usize = 3;
@@ -278,9 +279,9 @@ impl Trials<'_> {
         game.sprite_types().filter(carries).filter_map(slowed).collect()
     }
 
-    /// Returns the evidence about a rule whose removal makes the level winnable. The evidence states where
-    /// the rule would act in that win, and whether it is enough to move the rule further down or to shield
-    /// the avatar from it.
+    /// Returns the evidence about a rule whose removal makes the level winnable. The evidence states where the rule
+    /// would act in the win found without it, and whether it is enough to move the rule further down or to shield the
+    /// avatar from it.
     fn without_rule(&mut self, line: usize, won: Won) -> Vec<Evidence> {
         let game = self.case.game;
         let (place, others) = self.first_meeting(line, &won);

@@ -24,7 +24,7 @@ pub(crate) struct Ending {
 }
 
 impl Ending {
-    /// Replays an episode and records its last tick. Costs one episode.
+    /// Replays an episode and records its last tick. Costs one replay of the episode.
     pub(crate) fn of(analysis: &Analysis, level: &Level, episode: &Episode) -> Ending {
         let game = analysis.game();
         let mut state = game.start(level, episode.seed);
@@ -84,7 +84,7 @@ impl Ending {
     }
 }
 
-/// Returns `true` if an interaction may have removed a sprite of one of the types on one of its sides.
+/// Returns `true` if an interaction may have removed a sprite whose type is in `types`, on either side.
 fn ends(analysis: &Analysis, meeting: &Meeting, types: &[SpriteType]) -> bool {
     let of_line = |encounter: &&Encounter| encounter.line == meeting.line;
     let ends =

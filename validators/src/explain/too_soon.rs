@@ -8,9 +8,9 @@ use agents::{PortfolioConfig, Solution, solve};
 use engine::analysis::Condition;
 use engine::{Analysis, Description, Game};
 
-/// Searches a level that is proven unwinnable again, without the Timeouts that lose the game. If a win is
-/// found, rewrites the finding to name these Timeouts as the cause, and returns `true`. Other findings stay
-/// unchanged. Costs the rest of the first search's budget.
+/// Repeats the search of a level that is proven unwinnable, without the Timeouts that lose the game. If a win is found,
+/// rewrites the finding to name these Timeouts as the cause, and returns `true`. Other findings stay unchanged. Costs
+/// the rest of the first search's budget.
 pub(crate) fn explain(case: Case<'_>, finding: &mut Finding, search: &PortfolioConfig) -> bool {
     let Case { game, level, analysis, seed, .. } = case;
     let Some(spent) = finding.searched.filter(|_| matches!(finding.verdict, Verdict::Fail { .. })) else {

@@ -1,4 +1,4 @@
-//! Careless players: nearest-goal players that slip at random.
+//! Careless players: nearest-goal players that press a random key in some of their ticks.
 
 use super::Gates;
 use agents::{Budget, Limits, NearestGoal, play};
@@ -12,8 +12,8 @@ use std::sync::OnceLock;
 const PATIENCE: usize = 4;
 const GRACE: usize = 50;
 
-/// The number of episodes in a closer evaluation, as a multiple of the number in the first one. A gate requests a
-/// closer evaluation before it fails because of only a few episodes.
+/// The number of episodes in a closer evaluation, as a multiple of the number in the first evaluation. A gate requests
+/// a closer evaluation before it fails because of only a few episodes.
 pub(super) const CLOSER: u32 = 4;
 
 /// The careless players' episodes. They are played when a gate first requests them, and all gates share them.
@@ -38,8 +38,8 @@ impl<'a> CarelessPlays<'a> {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }
 
-    /// Returns the careless players' win rate on a level, from [`CLOSER`] times as many episodes. The first call costs
-    /// these episodes.
+    /// Returns the careless players' win rate on a level, measured over [`CLOSER`] times the usual number of episodes.
+    /// The first call costs these episodes.
     pub(super) fn closer_win_share(&self, won: WonLevel<'_>, gates: &Gates) -> f64 {
         *self.closer[won.number].get_or_init(|| {
             let first = gates.careless_plays;
@@ -71,7 +71,7 @@ impl WonLevel<'_> {
 }
 
 /// Plays the episodes with the given numbers on a level that can be won in `ticks` ticks. The player walks to the
-/// nearest goal and slips in a fraction of its ticks. Cost: one call per action and tick.
+/// nearest goal, but presses a random key in a fraction of its ticks. Cost: one call per action and tick.
 pub(super) fn nearest_goal(
     game: &Game,
     level: &Level,
@@ -89,7 +89,7 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// Returns the fraction of careless episodes on a level that the rules end with a win or a loss. All other episodes get
+/// Returns the fraction of a level's careless episodes that the rules end with a win or a loss. All other episodes get
 /// stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;

@@ -9,8 +9,8 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::slice;
 
-/// Passes if the drama of the shortest known wins ([`PlayMeasures::drama`]) averages at least [`Gates::drama`] over
-/// the levels. Costs one [`PlayMeasures::of`] per level, which takes a few milliseconds.
+/// Passes if the drama of the shortest known wins ([`PlayMeasures::drama`]) averages at least [`Gates::drama`] over the
+/// levels. Costs one call of [`PlayMeasures::of`] per level, which takes a few milliseconds.
 #[derive(Clone, Debug)]
 pub(crate) struct Drama(Gates);
 

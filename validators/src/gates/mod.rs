@@ -41,7 +41,7 @@ fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     (!won.is_empty()).then_some(won)
 }
 
-/// Returns a gate's finding if there is nothing to judge.
+/// Returns the finding of a gate that has nothing to judge.
 fn without_subject(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }

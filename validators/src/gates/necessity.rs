@@ -28,14 +28,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// 3. a search that foresees the random draws of the win finds a much shorter win. It must be shorter by
 ///    [`Gates::plan_change`] than both the known win and the win that the search finds with the element.
 ///
-/// The gate fails only if it would fail even if every element that is not proven idle mattered. If it would not, the
-/// verdict is unknown. On deterministic levels, searches can prove an element idle by proving the shortest wins with
-/// and without it.
+/// If too few elements are shown to matter, the gate fails only if there would be too few even if every element that is
+/// not proven idle mattered. Otherwise, the verdict is unknown. On deterministic levels, searches can prove an element
+/// idle by proving the shortest wins with and without it.
 ///
-/// Removing a moving type shifts the random draws of a stochastic game, so the known win is not replayed
-/// without the type. Costs the replays and the careless episodes. For each element that these do not show to
-/// matter, also costs a search with [`Gates::needed_calls`] calls on each of the element's levels until the
-/// answer is certain.
+/// Removing a moving type shifts the random draws of a stochastic game, so the known win is not replayed without the
+/// type. Costs the replays and the careless episodes. For each element that they do not show to matter, also costs a
+/// search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 

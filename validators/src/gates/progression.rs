@@ -93,8 +93,8 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// Returns the levels' ease, from 0 to 1. If careless episodes measure the ease and the first ones count against
-    /// the game, evaluates the compared levels more closely.
+    /// Returns the levels' ease, from 0 to 1. If careless episodes measure the ease and the first episodes count
+    /// against the game, evaluates the compared levels more closely.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();
@@ -113,7 +113,7 @@ impl Progression {
     }
 }
 
-/// Returns the ease of the last level, and the lower of the eases of the first two levels.
+/// Returns the ease of the last level, and the lower ease of the first two levels.
 fn last_and_easiest(eases: &[f64]) -> (f64, f64) {
     (eases[eases.len() - 1], eases[0].min(eases[1]))
 }

@@ -8,15 +8,15 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
-        /// `open-ground`: the maximum fraction of narrow ground, on average over the levels.
+        /// `open-ground`: the maximum fraction of narrow ground, as a mean over the levels.
         pub narrow: f64 = 0.45,
-        /// `not-instant`: the minimum number of ticks of the shortest known win of a level after the first.
+        /// `not-instant`: the minimum number of ticks in the shortest known win of a level after the first.
         pub least_win: usize = 25,
-        /// `not-instant`: the minimum number of periods of the slowest spawner on the level during that win.
+        /// `not-instant`: the minimum length of the shortest known win, in periods of the level's slowest spawner.
         pub spawn_periods: f64 = 1.5,
-        /// `not-instant`: the number of episodes of the nearest-goal player per level.
+        /// `not-instant`: the number of episodes that the nearest-goal player plays per level.
         pub bot_plays: u32 = 4,
-        /// `not-instant`: the maximum fraction of these episodes that it may win.
+        /// `not-instant`: the maximum fraction of its episodes that the nearest-goal player may win.
         pub bot_wins: f64 = 0.5,
         /// `not-instant`: the maximum fraction of the levels after the first that may be exceptions.
         pub instant_levels: f64 = 0.25,
@@ -24,7 +24,7 @@ base::with_defaults! {
         pub time_limit: (f64, f64) = (1.2, 6.5),
         /// `no-dead-time`: the maximum length of a stretch without progress, as a fraction of the win.
         pub dead_share: f64 = 0.25,
-        /// `no-dead-time`: the number of ticks that such a stretch may always take.
+        /// `no-dead-time`: the number of ticks that a stretch without progress may always take.
         pub dead_ticks: usize = 12,
         /// `drama`: the minimum drama of the game.
         pub drama: f64 = 0.12,
@@ -36,11 +36,13 @@ base::with_defaults! {
         pub easier: f64 = 0.2,
         /// `actors-matter`: the minimum mean number of cells swept by a sprite that moves by itself.
         pub sweep: f64 = 5.0,
-        /// `actors-matter`: the minimum fraction of the levels with such sprites on which they come next to the player.
+        /// `actors-matter`: the minimum fraction of levels with self-moving sprites on which these sprites come next to
+        /// the player.
         pub met_levels: f64 = 0.5,
         /// `actors-matter`: the minimum fraction of careless players' losses that deadly foes cause.
         pub foe_losses: f64 = 0.1,
-        /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, on average.
+        /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, as a mean over the
+        /// levels.
         pub spare: (f64, f64) = (0.0, 0.5),
         /// `tight`, `progression`, `actors-matter`, `necessity`: the number of episodes of careless players per level.
         pub careless_plays: u32 = 8,
@@ -51,12 +53,12 @@ base::with_defaults! {
         /// `necessity`: the minimum relative change in the length of a win, or the minimum fraction of careless
         /// episodes that end differently, at which an element matters.
         pub plan_change: f64 = 0.15,
-        /// `necessity`: the minimum fraction of the levels with a rule or type on which it must matter in order to
-        /// count.
+        /// `necessity`: the minimum fraction of levels on which a rule or type must matter in order to count, among the
+        /// levels on which it occurs.
         pub needed_levels: f64 = 0.5,
         /// `necessity`: the minimum fraction of the rules and types that must matter.
         pub needed_share: f64 = 0.55,
-        /// `necessity`: the number of forward-model calls of a search without a rule or type on one level.
+        /// `necessity`: the number of forward-model calls per level in a search without a rule or type.
         pub needed_calls: u64 = 10_000,
     }
 }

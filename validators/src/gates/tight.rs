@@ -70,8 +70,7 @@ impl GameValidator for Tight {
     }
 }
 
-/// Returns the amounts of a resource that a win spends and leaves, or `None` if it does not spend the
-/// resource.
+/// Returns the spent and the remaining amount of a resource in a win, or `None` if the win does not spend the resource.
 fn balance(case: GameCase<'_>, won: WonLevel<'_>, resource: &Resource) -> Option<(f64, f64)> {
     let held = |state: &State| state.amount_held(resource.stype);
     let mut state = case.game.start(won.level, won.win.seed);

@@ -1,4 +1,4 @@
-//! Comparison of a game with and without one of its rules in every reachable state.
+//! Comparison, in every reachable state, of a game with and without one of its rules.
 
 use base::Seed;
 use engine::{Analysis, Level, State};

@@ -17,7 +17,7 @@ pub const FUTURES: u64 = 8;
 const CHECKPOINTS: [usize; 7] = [1, 2, 4, 8, 16, 32, SIGHT];
 /// The number of random keys to try per tick.
 const KEYS_TRIED: usize = 3;
-/// The number of futures that must be worse than the actual play for it to count as visibly better.
+/// The number of futures that must be worse than the actual play in order for the play to count as visibly better.
 const WORSE: usize = 6;
 
 /// A future being played.

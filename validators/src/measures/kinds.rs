@@ -94,7 +94,7 @@ base::named_enum! {
     }
 }
 
-/// The minimum number at which a goal counts as one of quantity.
+/// The minimum count for a goal to be classified as a quantity goal.
 const MANY: i32 = 3;
 
 impl GoalKind {

@@ -43,9 +43,9 @@ pub struct PlayerResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ladder {
-    /// The players from weakest to strongest, in the order of the criteria.
+    /// The results of the ladder's players, from weakest to strongest, in the order of the criteria.
     pub rungs: Vec<PlayerResult>,
-    /// The players that are held out until acceptance.
+    /// The results of the players that are held out until acceptance.
     pub held_out: Vec<PlayerResult>,
     /// The level's ease, from 0 to 1 (`spec/06` §2.6), or `None` if no player looks ahead.
     pub ease: Option<f64>,

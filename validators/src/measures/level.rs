@@ -133,7 +133,7 @@ impl SkillGap {
 }
 
 /// Returns the interactions executed in an episode, as indices into [`Description::interactions`](engine::Description)
-/// in ascending order. Costs one episode.
+/// in ascending order. Costs one replay of the episode.
 pub fn used_rules(game: &Game, level: &Level, episode: &Episode) -> Vec<usize> {
     let mut recorder = MeetingRecorder::new(game);
     let mut state = game.start(level, episode.seed);
@@ -214,7 +214,7 @@ fn pushed(analysis: &Analysis, meetings: &[Meeting], before: &State, after: &Sta
     moved.min(types.len())
 }
 
-/// Returns the number of pushes in an episode, counted as in [`Measures::pushes`]. Costs one episode.
+/// Returns the number of pushes in an episode, counted as in [`Measures::pushes`]. Costs one replay of the episode.
 pub(crate) fn pushes_of(analysis: &Analysis, level: &Level, episode: &Episode) -> usize {
     let game = analysis.game();
     let mut state = game.start(level, episode.seed);

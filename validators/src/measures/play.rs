@@ -92,7 +92,7 @@ impl PlayMeasures {
 }
 
 /// Returns the interactions executed in an episode, not counting guards, as indices into
-/// [`Description::interactions`](engine::Description). Costs one episode.
+/// [`Description::interactions`](engine::Description). Costs one replay of the episode.
 pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &Episode) -> BTreeSet<usize> {
     let mut counter = Counter::new(guards);
     let mut state = game.start(level, episode.seed);

@@ -106,7 +106,8 @@ impl RuleRef {
         self.meant.iter().map(|(line, _)| *line)
     }
 
-    /// Returns `true` if an episode executes one of the interactions on sprites of the given types. Costs one episode.
+    /// Returns `true` if an episode executes one of the interactions on sprites of the given types. Costs one replay of
+    /// the episode.
     pub fn is_used(&self, analysis: &Analysis, level: &Level, episode: &Episode) -> bool {
         let game = analysis.game();
         let mut recorder = MeetingRecorder { rule: self, analysis, heard: false };

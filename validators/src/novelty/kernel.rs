@@ -5,8 +5,8 @@
 //! JMLR 12, 2011). Counts are compared by intersection, as in the optimal-assignment form of the kernel
 //! (Kriege, Giscard and Wilson, "On valid optimal assignment kernels", NIPS 2016).
 //!
-//! With products of counts instead, ten walls would outweigh everything else. The intersection is divided by the union,
-//! which makes the distance a metric on the counts. It is 0 only for equal counts.
+//! If counts were compared by products instead, ten walls would outweigh everything else. The intersection is divided
+//! by the union, which makes the distance a metric on the counts. It is 0 only for equal counts.
 
 use super::colours::{Colour, Neighbours, colour};
 use super::graph::{Grain, RuleGraph};

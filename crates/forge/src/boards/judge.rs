@@ -45,7 +45,7 @@ const DEAD: f64 = 0.4;
 const TRAPS_WEIGHT: f64 = 0.24;
 /// The weight of the last costly deviation in the quality.
 const LAST_WEIGHT: f64 = 0.10;
-/// The maximum amount by which a board's quality may fall short of the best for the board to be examined closely.
+/// The maximum difference in quality from the best board at which a board is still examined closely.
 const MARGIN: f64 = 0.05;
 /// The number of alternative random futures in which a win is replayed to test whether it still wins.
 const FUTURES: u64 = 6;
@@ -161,8 +161,8 @@ impl Judge<'_> {
         Judged { evaluation, calls, is_searched: true, won: Some((win, measures)) }
     }
 
-    /// Returns `None` if an idle player neither wins nor loses too soon. Otherwise, returns how nearly the level meets
-    /// this condition, from 0 to 0.5.
+    /// Returns `None` if an idle player does not win, and does not lose in the first ticks. Otherwise, returns how
+    /// close the level comes to meeting this condition, from 0 to 0.5.
     fn idle_fault(&self, level: &Level, calls: &mut u64) -> Option<f64> {
         let game = self.analysis.game();
         let mut state = game.start(level, self.seed);

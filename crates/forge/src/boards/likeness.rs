@@ -2,9 +2,8 @@
 
 use engine::Level;
 
-/// The similarity at which two levels of a course count as the same board. Within a hand-written game, the highest
-/// similarity between two levels is 0.54 in the median. Two of the 27 hand-written games have levels above this
-/// threshold.
+/// The similarity at which two levels of a course count as the same board. For the median hand-written game, the
+/// highest similarity between two levels is 0.54. Two of the 27 hand-written games have levels above this threshold.
 const ONE_BOARD: f64 = 0.75;
 /// The symbol of bare floor in the levels of courses.
 const FLOOR: u8 = b'.';
@@ -23,8 +22,8 @@ pub(crate) fn are_one_board(one: &Level, other: &Level) -> bool {
     likeness(&Board::of(one), &Board::of(other)) >= ONE_BOARD
 }
 
-/// Returns the similarity of two boards, from 0 to 1: the fraction of equal cells, ignoring cells that are bare floor
-/// on both boards, at the best alignment. Costs half a million comparisons for the largest course boards.
+/// Returns the similarity of two boards at their best alignment, from 0 to 1. It is the fraction of equal cells,
+/// ignoring cells that are bare floor on both boards. Costs half a million comparisons for the largest course boards.
 fn likeness(one: &Board, other: &Board) -> f64 {
     let shifts = |a: usize, b: usize| {
         let spare = a as isize - b as isize;

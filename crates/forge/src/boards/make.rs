@@ -9,8 +9,8 @@ use generators::boards::BoardVariation;
 use generators::{Annealing, AnnealingConfig, Search};
 use validators::{Effort, Panel};
 
-/// The number of boards that the search may propose per board in the budget, which counts only boards that reach the
-/// win search.
+/// The maximum number of boards that the search may propose for each board in the budget. A proposed board uses up
+/// budget only if it reaches the win search.
 const CHEAP: usize = 3;
 /// The maximum number of tidied boards to judge at the end.
 const TIDIED: usize = 12;

@@ -1,6 +1,5 @@
-//! Boards for any game, found by a player-guided search. [`generators::boards`] composes the boards. The search
-//! then changes them until a shortest win needs every clause, wrong choices have a cost, and no piece is
-//! superfluous.
+//! Boards for any game, found by a player-guided search. [`generators::boards`] composes the boards. The search then
+//! changes them until a shortest win needs every interaction, wrong choices have a cost, and no piece is superfluous.
 
 mod deviations;
 mod judge;

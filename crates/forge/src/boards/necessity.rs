@@ -12,7 +12,7 @@ const LONGER: usize = 140;
 /// The minimum length of the known win, as a percentage of the length of a win without a threat, at which the threat
 /// matters.
 const SHORTER: usize = 115;
-/// The number of deviations from a win that are tried to find the threats that kill.
+/// The number of deviations from a win to try in order to find the threats that kill.
 const DEVIATIONS: usize = 20;
 /// The minimum number of deviations that a threat must make fatal in order to matter.
 const FATAL: usize = 2;

@@ -20,7 +20,7 @@ pub struct BoardOrder {
     pub unlike: Vec<Level>,
     /// For each earlier win, the order of its first executions of interactions; see [`BoardMeasures::firsts`].
     pub known: Vec<Vec<usize>>,
-    /// The minimum and maximum number of ticks of the shortest win.
+    /// The minimum and maximum number of ticks in the shortest win.
     pub ticks: (usize, usize),
     /// The criteria whose gates the board should meet on its own, as far as a single level can.
     pub gates: Option<CheckedCriteria>,

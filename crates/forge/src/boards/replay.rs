@@ -12,7 +12,7 @@ pub(super) struct Events {
     pub(super) firsts: Vec<usize>,
     /// The fraction of placed types, not counting walls and floor, that took part.
     pub(super) used: f64,
-    /// The fraction of placed types that take part, among those with an idiom in [`HANDLED`].
+    /// The fraction of placed types with an idiom in [`HANDLED`] that take part.
     pub(super) handled: f64,
     /// The number of supplies that the win leaves in place. Supplies are sprites to be pushed, and resources that can
     /// be held.

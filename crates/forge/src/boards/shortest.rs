@@ -7,7 +7,7 @@ use std::mem;
 
 /// The minimum number of states in a narrowed layer.
 const LEAST_WIDTH: u64 = 40;
-/// The maximum number of spare states, which take some tens of megabytes.
+/// The maximum number of spare states. They take some tens of megabytes.
 const MAX_SPARE: usize = 4096;
 
 /// The limits of a search.

@@ -10,12 +10,12 @@ const FAR: f64 = 0.6;
 /// The maximum number of draws to compare.
 const DRAWS: u64 = 12;
 
-/// The number of attempts at a game after which the draws are led by a different mechanic.
+/// The number of attempts at a game after which a different mechanic is requested for the draws.
 const PATIENCE: u32 = 6;
-/// The number of attempts at a game after which the draws are led by a different danger and a different ending. With a
-/// lower number, the dangers and endings that pass most easily would occur in most games.
+/// The number of attempts at a game after which a different danger and a different ending are requested for the draws.
+/// With a lower number, the dangers and endings that pass most easily would occur in most games.
 const LONG_PATIENCE: u32 = 60;
-/// The number of turns by which the lead advances each time. The stride exceeds the number of games in a month.
+/// The number of turns by which the requested parts advance each time. It exceeds the number of games in a month.
 const STRIDE: usize = 31;
 
 /// Inventions as search candidates, drawn at a large distance from known games. [`InventionVariation`] makes the
@@ -28,7 +28,7 @@ pub(crate) struct FarInventions<'a> {
 
 impl<'a> FarInventions<'a> {
     /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics with the lowest counts in
-    /// the census. If all games in an order use the same `seed`, each game's draws are led by different parts.
+    /// the census. If all games in an order use the same `seed`, different parts are requested for each game's draws.
     pub(crate) fn new(
         census: &Census,
         known: &'a [GameForm],
@@ -41,7 +41,7 @@ impl<'a> FarInventions<'a> {
         FarInventions { variation: InventionVariation::new(config, census.clone()), known, lead }
     }
 
-    /// Returns the child, or its parent if the child has lost a leading part. Otherwise, searches for different games
+    /// Returns the child, or its parent if the child has lost a requested part. Otherwise, searches for different games
     /// would converge on the parts that pass most easily.
     fn led(&self, child: Invention, parent: &Invention) -> Invention {
         let has = |invention: &Invention, part| invention.mechanics().any(|name| Some(name) == part);

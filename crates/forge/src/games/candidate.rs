@@ -27,7 +27,7 @@ pub struct Candidate {
     pub origin: Origin,
 }
 
-/// A game with levels that its judges accepted.
+/// A game with levels, accepted by its judges.
 #[derive(Clone, Debug)]
 pub struct MadeGame {
     /// The game's rules.
@@ -38,7 +38,7 @@ pub struct MadeGame {
     pub card: Card,
     /// The levels, from easiest to hardest.
     pub levels: Vec<FoundLevel>,
-    /// The findings about all levels as a whole.
+    /// The findings about the levels as a whole.
     pub together: Vec<Judgement>,
     /// The winning episode of each level.
     pub witnesses: Vec<Episode>,

@@ -1,4 +1,4 @@
-//! A level of a game that its judges accepted.
+//! A level that its judges accepted, within a game.
 
 use base::SeedPath;
 use engine::Level;
@@ -9,7 +9,7 @@ use validators::{Demand, Report};
 pub struct FoundLevel {
     /// The level.
     pub level: Level,
-    /// The findings of the level's judges, whose witness wins the level.
+    /// The findings of the level's judges, including a witness that wins the level.
     pub report: Report,
     /// The generator that made the level.
     pub generator: &'static str,

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use validators::novelty::GameForm;
 
-/// The divisor that reduces the number of looks in each archive round after the first. A further round follows if the
+/// The divisor for the number of quick evaluations in each archive round after the first. Another round follows if the
 /// judges have rejected the elites of the last one.
 const MENDING: usize = 3;
 /// The maximum number of games in a round. Changing this number changes the generated games.
@@ -167,7 +167,7 @@ mod tests {
     use crate::pipeline::tests::order;
     use base::Seed;
 
-    /// Runs one round with few looks, and with judges that accept every winnable game.
+    /// Runs one round with few quick evaluations, and with judges that accept every winnable game.
     fn invent(method: Method, threads: usize) -> (Option<String>, Tally) {
         let order = GameOrder { method, levels: 1, level_tries: 1, ..order() };
         let order =

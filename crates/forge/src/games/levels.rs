@@ -59,7 +59,7 @@ pub struct Levels<'a> {
 }
 
 impl Levels<'_> {
-    /// Returns the judges of the requested criteria in a set.
+    /// Returns the judges for the requested criteria that are in `set`.
     pub(crate) fn panel_of(&self, set: CriterionSet) -> Panel {
         Panel::new(self.criteria.only(set), Effort::Sequential)
     }

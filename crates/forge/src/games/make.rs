@@ -94,7 +94,7 @@ pub fn attempt_kernel(
     (attempted.made, attempted.tally)
 }
 
-/// The reason for leaving a position of the order empty.
+/// The reason reported for a position in the order that stays empty.
 pub const NO_RULES: &str = "no rules left";
 
 /// A game maker that supports every method.

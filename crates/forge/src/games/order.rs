@@ -15,13 +15,13 @@ pub struct GameOrder {
     pub count: u32,
     /// The kinds of games, used in turn.
     pub kinds: Vec<Kind>,
-    /// The number of levels per game, from easiest to hardest.
+    /// The number of levels per game. The levels are ordered from easiest to hardest.
     pub levels: u32,
     /// The maximum number of levels to try for one position.
     pub level_tries: u32,
     /// The minimum number of interactions in a game, including guards.
     pub least_interactions: usize,
-    /// The minimum number of different interactions, not counting guards, that the wins of all levels execute together.
+    /// The minimum number of different interactions, not counting guards, that the wins of all levels execute in total.
     pub least_mechanics: usize,
     /// The criteria that each game must meet; see [`GameOrder::criteria_by_default`].
     pub criteria: CheckedCriteria,
@@ -53,8 +53,8 @@ impl Board {
 pub struct GameEffort {
     /// The number of attempts. An attempt is a drawn game, a search, or an archive round, depending on the method.
     pub attempts: u32,
-    /// The number of attempts to build a game from a single set of rules, for games from kernels that are generated
-    /// independently.
+    /// The number of attempts to build a game from a single set of rules, if games are generated independently from
+    /// kernels.
     pub patience: u32,
     /// The number of inventions that a search evaluates in one attempt.
     pub looks: u32,
@@ -98,8 +98,8 @@ impl GameOrder {
         }
     }
 
-    /// Returns the order with a different number of levels. Fewer than three levels cannot show a progression, so they
-    /// drop that criterion.
+    /// Returns the order with a different number of levels. With fewer than three levels, the progression criterion is
+    /// dropped, because so few levels cannot show a progression.
     #[must_use]
     pub fn with_levels(mut self, levels: u32) -> GameOrder {
         if levels < 3 {

@@ -25,7 +25,7 @@ pub struct PuzzleLevels {
     pub things: usize,
 }
 
-/// The rules of puzzles. The generator of pushing puzzles derives them from the game.
+/// The rules of puzzles. For pushing puzzles, the generator derives the rules from the game.
 #[derive(Clone, Debug)]
 pub enum PuzzleRules {
     /// The rules of pushing puzzles.
@@ -39,17 +39,17 @@ pub enum PuzzleRules {
 }
 
 impl PuzzleRules {
-    /// Returns the rules of lock puzzles for a game with these rules in a different theme.
+    /// Returns the rules of lock puzzles for a game that has `rules` in the theme of `retold`.
     pub fn locks(rules: LockRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Locks(Retold::of(rules, LockRules::SYMBOLS, retold))
     }
 
-    /// Returns the rules of yards for a game with these rules in a different theme.
+    /// Returns the rules of yards for a game that has `rules` in the theme of `retold`.
     pub fn yards(rules: YardRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Yards(Retold::of(rules, YardRules::SYMBOLS, retold))
     }
 
-    /// Returns the rules of pushing puzzles among strays for a game with these rules in a different theme.
+    /// Returns the rules of pushing puzzles among strays for a game that has `rules` in the theme of `retold`.
     pub fn strays(rules: PushRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Strays(Retold::of(rules, PushRules::SYMBOLS, retold))
     }
@@ -84,7 +84,7 @@ impl<Rules> Retold<Rules> {
 pub(crate) enum PuzzleGenerator<'a> {
     /// Generates pushing puzzles that meet a target.
     Pushing(Box<PuzzleVariation<'a>>),
-    /// Generates pushing puzzles without a target. The range gives the numbers of actions in a win that the tier
+    /// Generates pushing puzzles without a target. The range contains the numbers of actions in a win that the tier
     /// allows.
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
@@ -141,7 +141,7 @@ const MOST_ACTIONS: usize = 160;
 const FLOOR_PLANS: usize = 20_000;
 /// The maximum number of floor plans without a target.
 const FEW_FLOOR_PLANS: usize = 60;
-/// The number of levels to draw in search of one with the number of actions that the tier requires.
+/// The maximum number of levels to draw until one has as many actions as the tier requires.
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {

@@ -12,8 +12,8 @@ use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 /// The feasibility of a game that passed a quick evaluation but was rejected by the final judges.
 pub(super) const REFUSED: f64 = 0.95;
 
-/// Evaluates an invention cheaply. Returns the evaluation and the number of forward-model calls. Costs one `quick look`
-/// stage.
+/// Evaluates an invention cheaply. Returns the evaluation and the number of forward-model calls. Costs as much as the
+/// stage `quick look`.
 fn look(invention: &Invention, seed: Seed) -> (Evaluation, u64) {
     let Profile { coupling, verb, pace } = invention.profile();
     let measures = vec![coupling as f64, verb.number() as f64, pace];
@@ -26,7 +26,7 @@ fn look(invention: &Invention, seed: Seed) -> (Evaluation, u64) {
 }
 
 impl Maker<'_> {
-    /// Runs a search with a given number of looks.
+    /// Runs a search with a given number of quick evaluations.
     pub(super) fn search(
         &self,
         search: &mut impl Search<Candidate = Invention>,

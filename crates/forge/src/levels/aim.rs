@@ -31,8 +31,8 @@ const PLAYS: u64 = 6;
 /// The margin that searches keep from the boundaries of a label's ease range. A second measurement may move a level
 /// that lies within this margin across the boundary.
 const MARGIN: f64 = 0.08;
-/// The margin that an archive keeps from these boundaries. Levels closer to a boundary, or beyond it, reach at most 90%
-/// of the constraint.
+/// The margin that an archive keeps from the boundaries of a label's ease range. Levels closer to a boundary, or beyond
+/// it, meet at most 90% of the constraint.
 const KEPT: f64 = 0.03;
 const CLOSE: f64 = 0.9;
 /// The win rate over all ladder episodes above which a second ladder is almost certain to have a winner too.
@@ -88,8 +88,8 @@ impl<'a> Aim<'a> {
         Told { constraint, objective, measures, calls }
     }
 
-    /// Returns a level's quality, regardless of the request. The win of a good level is long for its board and involves
-    /// most rules. Its choices matter, a loss is never far away, and its walls form structures rather than noise.
+    /// Returns a level's quality, regardless of the request. On a good level, the win is long for the board and
+    /// involves most rules, choices matter, and a loss is never far away. The walls form structures rather than noise.
     fn quality(&self, level: &Level, measures: &Measures) -> f64 {
         let sides = (level.columns() + level.rows()) as f64;
         let length = (measures.ticks as f64 / (CROSSINGS * sides)).min(1.0);

@@ -1,4 +1,4 @@
-//! The measures by which an archive tells levels apart.
+//! The measures by which an archive distinguishes levels.
 
 use super::aim::{OF_PLAY, names};
 use super::look::Look;
@@ -6,7 +6,7 @@ use generators::Axis;
 
 /// The number of axes of an archive.
 const AXES: usize = 2;
-/// The minimum number of bins of an axis.
+/// The minimum number of bins per axis.
 const LEAST_BINS: usize = 8;
 /// The number of archive cells provided per requested level.
 const ROOM: usize = 6;
@@ -24,7 +24,7 @@ impl Axes {
     /// hardly any level was won, chooses the two board measures in which all levels differ most. The ranges are those
     /// of the sample without outliers, extended by half at both ends.
     ///
-    /// Each look in the sample contains all measures, in the order of [`names`].
+    /// Each quick evaluation in the sample contains all measures, in the order of [`names`].
     pub(super) fn of<'a>(sample: impl Iterator<Item = &'a Look> + Clone, wanted: usize) -> Axes {
         let won: Vec<&Look> = sample.clone().filter(|look| look.is_won).collect();
         let is_enough = won.len() >= LEAST_WON;
@@ -61,8 +61,8 @@ mod tests {
     use super::*;
     use generators::Evaluation;
 
-    /// Returns a look at a level. Levels with different `at` differ in measures 5 and 6, and won levels also differ in
-    /// the length of the win.
+    /// Returns the quick evaluation of a level. Levels with different `at` differ in measures 5 and 6, and won levels
+    /// also differ in the length of the win.
     fn look(at: usize, is_won: bool) -> Look {
         let mut measures = vec![0.5; names().count()];
         measures[..OF_PLAY.len()].fill(0.0);

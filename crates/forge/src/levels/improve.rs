@@ -22,7 +22,7 @@ const REFUSED: f64 = 0.95;
 /// The fraction of an archive's effort spent on new levels before breeding starts. New levels differ more than edited
 /// levels do.
 const CREATION: f64 = 0.4;
-/// The fraction of new levels after breeding has started.
+/// The fraction of candidates that are new levels, after breeding has started.
 const FRESH: f64 = 0.1;
 /// The number of initial rounds in which no two nearly equal levels are accepted. In later rounds, a nearly equal level
 /// is better than none.
@@ -30,7 +30,7 @@ const CHOOSY: u32 = 2;
 
 impl Maker<'_> {
     /// Searches for a level by annealing until the panel accepts a result. Each round is a separate search. The number
-    /// of rounds is higher if most looks are cheap.
+    /// of rounds is higher if most quick evaluations are cheap.
     pub(super) fn search_level(
         &self,
         variation: &LevelSearch<'_>,
@@ -46,8 +46,8 @@ impl Maker<'_> {
         let mut left = f64::from(self.order.effort.rounds * self.order.effort.looks);
         let mut round = 0;
         while left > 0.0 {
-            // Half of the looks search for a starting level that is worth improving, because edits change a level less
-            // than levels differ from each other.
+            // Half of the quick evaluations serve to find a starting level that is worth improving, because edits
+            // change a level less than levels differ from each other.
             let config = AnnealingConfig { starts: looks / 2, ..AnnealingConfig::of(looks) };
             let mut search = Annealing::new(variation, config, seed.child("round", round));
             let mut best = Finalists::new();

@@ -15,8 +15,8 @@ use validators::{
 const IDLE_PLAYS: u32 = 2;
 /// The number of episodes of random play.
 const RANDOM_PLAYS: u32 = 24;
-/// The number of additional random episodes after a win in the first ones. They correct for the selection of lucky
-/// levels.
+/// The number of additional random episodes after a win in the first [`RANDOM_PLAYS`]. They correct for the selection
+/// of lucky levels.
 const MORE_RANDOM_PLAYS: u32 = 48;
 /// The maximum fraction of random episodes that may win: one of the first [`RANDOM_PLAYS`]. The panel plays with
 /// different seeds and is stricter.
@@ -24,7 +24,7 @@ const RANDOM_WINS: f64 = 0.05;
 /// The number of random futures that are tried to test whether the player can survive the first ticks of a stochastic
 /// game.
 const CHANCES: u32 = 4;
-/// The divisor of a look's call budget that gives the budget for each future.
+/// The number by which a quick evaluation's call budget is divided to get the budget for each random future.
 const EARLY: u64 = 50;
 
 /// Cheap evaluations of candidates for one order, with few episodes and a small budget. Passing candidates must still
@@ -48,8 +48,9 @@ pub(super) struct Look {
     pub(super) is_won: bool,
     /// The number of forward-model calls.
     pub(super) calls: u64,
-    /// The effort, in looks of typical cost. Without a win search, the effort is [`LEAST_EFFORT`]. Otherwise, each
-    /// [`super::Effort::calls`] calls of the win search count as one look, with a minimum of one.
+    /// The effort, as a number of quick evaluations of typical cost. Without a win search, the effort is
+    /// [`LEAST_EFFORT`]. Otherwise, each [`super::Effort::calls`] calls of the win search count as one evaluation, with
+    /// a minimum of one.
     pub(super) effort: f64,
 }
 
@@ -61,7 +62,7 @@ impl Look {
     }
 }
 
-/// The effort of a look that ends with the first, cheap judges.
+/// The effort of a quick evaluation that ends with the first, cheap judges.
 pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 
 /// The cost of a look so far.
@@ -79,7 +80,7 @@ impl Spent {
     }
 }
 
-/// The factor by which the win rate of random play lowers the objective. One win in 24 episodes costs a third.
+/// The factor by which the win rate of random play lowers the objective. One win in 24 episodes lowers it by a third.
 const LUCK: f64 = 8.0;
 /// The number of calls per episode tick. It suffices for a few decisions by several players.
 const TICK: u64 = 500;

@@ -11,8 +11,8 @@ use validators::{
 base::named_enum! {
     /// The method of generating levels or games.
     pub enum Method {
-        /// Draws walls, then furniture by role. This method takes almost no time, and levels are judged only if the
-        /// request requires measurements.
+        /// Draws walls, and then places sprites by role. This method takes almost no time, and levels are judged only
+        /// if the request requires measurements.
         Constructive = "constructive",
         /// Changes each level step by step, independently of other levels and guided by judges.
         Search = "search",
@@ -75,7 +75,7 @@ base::with_defaults! {
         /// The number of candidates evaluated together, on all threads. Changing this number changes the generated
         /// bytes.
         pub batch: usize = 8,
-        /// The number of attempts. A single level gets more attempts if most looks are cheap.
+        /// The number of attempts. A single level gets more attempts if most evaluations are cheap.
         pub rounds: u32 = 6,
         /// The maximum number of forward-model calls per win search. The limit is up to four times as high if episodes
         /// are long.
@@ -121,7 +121,7 @@ impl LevelOrder {
         Criteria { ask, random_wins: 0.025, ..default }
     }
 
-    /// Checks the criteria with the requested shortest win.
+    /// Checks the criteria, together with the requested minimum length of the shortest win.
     pub(super) fn checked_criteria(&self) -> Result<CheckedCriteria, CriteriaError> {
         let least_ticks = self.criteria.least_ticks.max(self.min_solution.unwrap_or(0));
         Criteria { least_ticks, ..self.criteria.clone() }.check()
@@ -138,7 +138,7 @@ impl LevelOrder {
 
     /// Returns the configuration of puzzles, with the number of pushable objects from the order's configuration. An
     /// archive improves each level afterwards, so it needs few floor plans. If a difficulty is requested, the position
-    /// farthest from a solution is seldom suitable, because few of the measuring players win such long puzzles.
+    /// farthest from a solution is seldom suitable, because few ladder players win such long puzzles.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
         let pushed =
             |stype: &SpriteType| analysis.pushables().iter().any(|pushable| pushable.stype == *stype);

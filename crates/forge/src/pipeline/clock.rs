@@ -54,8 +54,7 @@ impl<'a> Trial<'a> {
         Ok(())
     }
 
-    /// Takes a version of the game through the later stages, after a new judgement of the levels that have already been
-    /// found.
+    /// Takes a version of the game through the later stages, after rejudging the levels found so far.
     fn pass_with(
         &self,
         candidate: Candidate,
@@ -91,7 +90,7 @@ pub(super) fn time_limit(longest: usize) -> u32 {
 }
 
 impl Levels<'_> {
-    /// Judges a level found for the game under a different time limit, by all judges except the ladder. Reuses the
+    /// Judges a level that was found under a different time limit, using all judges except the ladder. Reuses the
     /// result of the win search if that win is still valid. The seeds are unchanged, so a replay ends as before.
     fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;

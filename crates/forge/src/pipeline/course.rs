@@ -11,8 +11,8 @@ use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillO
 /// The number of levels to find first in a course: the first two and the last.
 const OUTLINE: usize = 3;
 
-/// The number of further candidates to try for a course's first level if it leaves no new mechanic for later levels. If
-/// all of them share this fault, more candidates are unlikely to help.
+/// The number of further candidates to try for a course's first level if the level found leaves no new mechanic for
+/// later levels. If all of these candidates share the fault, more are unlikely to help.
 const INTRODUCTIONS: u32 = 3;
 
 /// The levels found so far for a game, in the order in which they were found.
@@ -149,7 +149,8 @@ impl<'a> Begun<'a> {
     }
 }
 
-/// Replaces a first level that leaves no new mechanic for later levels with one of the next candidates that does.
+/// Replaces a first level that leaves no new mechanic for later levels. Tries the next candidates until one leaves such
+/// a mechanic.
 pub(super) fn another_introduction(
     levels: &Levels<'_>,
     game: &Game,

@@ -16,17 +16,17 @@ pub(crate) struct Trial<'a> {
     pub(super) levels: Levels<'a>,
     pub(super) demands: Demands<'a>,
     pub(super) found: Vec<FoundLevel>,
-    /// The findings about all levels as a whole.
+    /// The findings about the levels as a whole.
     pub(super) together: Vec<Judgement>,
     pub(super) made: Option<MadeGame>,
 }
 
-/// The requirements for generated rules beyond the criteria, and facts about the rules.
+/// The requirements for generated rules, in addition to the criteria, and facts about the rules.
 #[derive(Clone, Copy)]
 pub(crate) struct Demands<'a> {
     /// The known games from which new games must differ.
     pub(super) known: &'a [GameForm],
-    /// Returns the reason why a set rejects a game whatever its levels, if there is one.
+    /// Returns the reason why a set rejects a game regardless of its levels, if there is one.
     pub(super) objection: &'a dyn Fn(&Candidate) -> Option<&'static str>,
     pub(super) least_interactions: usize,
     pub(super) least_mechanics: usize,

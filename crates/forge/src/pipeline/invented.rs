@@ -12,13 +12,13 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention};
 use validators::CheckedCriteria;
 
-/// The demand on a board at difficulty 1.
+/// The demand of a board, from 0 to 4, at difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand at which every mechanic must matter on a board.
+/// The minimum demand of a board at which every mechanic must matter.
 const JOINT: u8 = 2;
 
-/// The demand on a quick look's boards.
+/// The demand of the boards in a quick look.
 const LOOK_DEMAND: u8 = 1;
 /// The number of boards in a quick look.
 const LOOKS: usize = 24;
@@ -36,7 +36,7 @@ const JOINT_CALLS: u64 = 2_000_000;
 pub(super) const USELESS: &str = "a mechanic does not matter";
 /// The minimum fraction of necessary interactions on a quick look's best board.
 const LEAST_NECESSITY: f64 = 0.4;
-/// The minimum fraction of costly wrong choices, on a quick look's best board.
+/// The minimum fraction of wrong choices that have a cost on a quick look's best board.
 const LEAST_TRAPS: f64 = 0.1;
 /// The maximum degree to which an unmet condition can count as met.
 const NEARLY: f64 = 0.999;

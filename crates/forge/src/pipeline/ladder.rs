@@ -9,7 +9,7 @@ use crate::tally::Tally;
 use engine::Game;
 use validators::{Cost, Criterion, CriterionSet, Judging};
 
-/// The maximum number of levels of a course that may fail the ladder. If more levels fail, the game is rejected.
+/// The maximum number of a course's levels that may fail the ladder. If more levels fail, the game is rejected.
 const MISFITS: u32 = 5;
 
 impl Trial<'_> {

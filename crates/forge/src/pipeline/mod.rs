@@ -1,5 +1,5 @@
-//! The stages that a candidate passes through. They are defined as data: each stage's question, its cost, and what it
-//! can reject or replace.
+//! The stages that a candidate passes through. Each stage is defined as data: its question, its cost, its reasons for
+//! rejecting a candidate, and the part that it can replace.
 //!
 //! The lists below define the order in which `stage::walk` runs the stages. Each stage is defined in a file of this
 //! folder, with its tuning constants next to its code. To add a stage, write a `Stage` there and add it to a list. The

@@ -6,10 +6,10 @@ use super::stage::{Refusal, walk};
 use crate::games::{Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
 
-/// The number of extra candidates that a failed win search counts as.
+/// The number of extra candidates to count for a failed win search.
 const VAIN_SEARCH: u32 = 1;
-/// The number of extra candidates that a failed search counts as while the game has fewer than [`STAKE`] levels, so
-/// that a game is given up before much effort is lost. After two failed searches, only one in four further searches
+/// The number of extra candidates to count for a failed search while the game has fewer than [`STAKE`] levels, so that
+/// a game is given up before much effort is lost. After two failed searches, only one in four further searches
 /// succeeds.
 const EARLY_VAIN_SEARCH: u32 = 5;
 const STAKE: usize = 2;
@@ -20,7 +20,7 @@ impl Place<'_> {
         Refusal::Because(format!("no level {}", self.number).into())
     }
 
-    /// Returns the first passing candidate, starting from number `from`.
+    /// Returns the first passing candidate, starting with candidate number `from`.
     pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let brief = PlaceBrief {
             number: self.number,

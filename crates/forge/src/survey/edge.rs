@@ -25,13 +25,13 @@ pub struct Edge {
     pub plays: u64,
     /// The best player that does not look ahead: the player with the most wins, with ties going to the highest score.
     pub floor: String,
-    /// The floor player's number of wins, across all levels.
+    /// The number of wins of the best player that does not look ahead, across all levels.
     pub floor_wins: u64,
     /// The difference between the two players' win rates, from −1 to 1.
     pub points: f64,
     /// Newcombe's 95% interval of the difference.
     pub interval: [f64; 2],
-    /// The mean gain in score of the ladder's strongest player over the floor player, as a fraction of the level's
+    /// The mean gain in score of the ladder's strongest player over the player in `floor`, as a fraction of the level's
     /// score range. The two players' episodes are paired by their random seeds. `None` if no level has differing
     /// scores.
     pub score: Option<f64>,
@@ -61,7 +61,7 @@ impl Player {
         self.scores.iter().sum::<f64>() / self.scores.len().max(1) as f64
     }
 
-    /// Returns the key by which players are compared, by wins first and then by score.
+    /// Returns the key by which players are compared: first their wins, then their scores.
     fn fares(&self) -> (f64, f64) {
         (self.rate(), self.score())
     }
@@ -102,8 +102,9 @@ fn players(reports: &[Report]) -> Vec<Player> {
 }
 
 impl Edge {
-    /// Computes the advantage from the levels' ladders, without held-out players. Returns `None` if there is no ladder,
-    /// or if all players or no players look ahead. The players must have the same names in all reports.
+    /// Computes the advantage of the strongest ladder player that looks ahead over the best one that does not. Returns
+    /// `None` if there is no ladder, or if all or none of the ladder players look ahead. The players must have the same
+    /// names in all reports.
     pub(super) fn of(
         analysis: &Analysis,
         levels: &[Level],
@@ -113,7 +114,8 @@ impl Edge {
         Edge::among(analysis, levels, reports, criteria, false)
     }
 
-    /// Computes the advantage like [`Edge::of`], but for the strongest of the players that no search has used.
+    /// Computes the advantage like [`Edge::of`], but for the strongest of the held-out players, which no search has
+    /// used.
     pub(crate) fn held_out(
         analysis: &Analysis,
         levels: &[Level],

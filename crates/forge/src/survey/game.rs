@@ -14,7 +14,8 @@ pub struct GameSurvey {
     seed: Seed,
 }
 
-/// The criteria that a survey checks. The other criteria are irrelevant to a comparison, or follow from these.
+/// The criteria that a survey checks. The other criteria are irrelevant to a comparison, or follow from the checked
+/// ones.
 const ASKED: CriterionSet = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
 
 impl GameSurvey {
@@ -54,7 +55,7 @@ impl GameSurvey {
     }
 
     /// Returns a game's row. The row does not depend on the other games or on the number of threads. Judges all levels
-    /// in parallel. Costs the criteria's budgets for a witness and a ladder per level.
+    /// in parallel. Costs, for each level, the criteria's budgets for a win search and for a ladder.
     pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GameRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let report = self.panel.judge(Judging::game(game, levels, seed));

@@ -9,7 +9,7 @@ use validators::{
     Measures, Panel, Report,
 };
 
-/// The maximum win rate of effortless players at which a level does not yet count as won for nothing.
+/// The maximum win rate of idle play and of random play at which a level does not count as won without effort.
 pub(crate) const FOR_NOTHING: f64 = 0.1;
 
 /// A level and all findings about it.
@@ -95,8 +95,8 @@ impl<'a> LevelSurvey<'a> {
     }
 
     /// Judges levels, each with its requested difficulty, on all threads of the current rayon pool. The result for a
-    /// level does not depend on the other levels. Costs one panel per level and, for each level with a witness, one
-    /// ladder.
+    /// level does not depend on the other levels. Costs one run of the panel per level and, for each level with a
+    /// witness, one run of the ladder.
     pub fn judge(&self, levels: &[(Level, Option<Difficulty>)]) -> Vec<SurveyedLevel> {
         levels.par_iter().map(|(level, asked)| self.one(level, *asked)).collect()
     }

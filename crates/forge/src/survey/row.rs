@@ -57,8 +57,8 @@ impl GameRow {
         COLUMNS.iter().map(|(name, _)| *name)
     }
 
-    /// Returns the row for a game judged by `winnable` and `skill`. Costs three replays of the recorded
-    /// episodes, plus [`PlayMeasures::of`].
+    /// Returns the row for a game judged by `winnable` and `skill`. Costs three replays of the recorded episodes, plus
+    /// the cost of [`PlayMeasures::of`].
     pub(crate) fn of(surveyed: &SurveyedGame, criteria: &Criteria, digest: Digest, seed: Seed) -> GameRow {
         let SurveyedGame { name, game, levels, report: GameReport { levels: reports, .. }, .. } = surveyed;
         let analysis = Analysis::of(game);

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use statistics::quantile;
 use validators::novelty::{GameForm, NEAR, distance};
 
-/// The larger of the two distances used to estimate the unseen mass.
+/// The larger of the two distances used to estimate the unseen probability mass.
 const FAR: f64 = 0.4;
 
 /// A function that draws a candidate's rules, given the census, the known games, the candidate's number and attempt,
@@ -277,7 +277,7 @@ mod tests {
         Chain::new(order, known, Seed::from_text("well"), draw, 100.0).run(&|_| ())
     }
 
-    /// A chain in which every later draw is rejected, which shows that no rules are left unseen.
+    /// In a chain with a single rule set, every later draw is rejected, which shows that no unseen rules are left.
     #[test]
     fn a_chain_of_one_rule_set_has_nothing_unseen() {
         let found = months(&ORDER, &[], &|_, _, _, _| Some(sketch(1)));

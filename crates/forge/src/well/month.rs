@@ -15,8 +15,8 @@ pub struct WellOrder {
     pub candidates: f64,
     /// The maximum number of rule sets drawn for one candidate.
     pub tries: u32,
-    /// The assumed fraction of new rule sets for which boards are found that pass all judges. The seed determines these
-    /// rule sets.
+    /// The assumed fraction of new rule sets for which a board search succeeds and all judges pass. The seed selects
+    /// these rule sets.
     pub passing: f64,
 }
 
@@ -39,7 +39,7 @@ pub struct Well {
     pub months: Vec<WellMonth>,
 }
 
-/// A month in a chain. Fractions and unseen masses cover all months up to and including this one.
+/// A month in a chain. Fractions and unseen probability masses cover all months up to and including this one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WellMonth {
     /// The month's number, from 1.
@@ -48,7 +48,8 @@ pub struct WellMonth {
     pub available: f64,
     /// The number of rule sets drawn for candidates.
     pub drawn: u64,
-    /// The number of drawn rule sets for which no board was found, as decided by the seed.
+    /// The number of drawn rule sets for which the simulation assumes that no board is found. The seed selects these
+    /// rule sets.
     pub failed: u64,
     /// The number of drawn rule sets near a known game or an earlier month's game.
     pub near: u64,
@@ -70,9 +71,9 @@ pub struct WellMonth {
     /// The estimated unseen probability mass of rules (Good–Turing): the probability that the next rules are at a
     /// distance of at least 0.3 from all rules drawn so far.
     pub unseen_near: Option<f64>,
-    /// The same estimate for a distance of 0.4.
+    /// Like [`WellMonth::unseen_near`], but for a distance of at least 0.4.
     pub unseen_far: Option<f64>,
-    /// The estimated probability mass of unseen port pairs, after merging.
+    /// The estimated probability mass of unseen pairs of merged ports.
     pub unseen_couplings: Option<f64>,
     /// The estimated probability mass of unseen mechanics, not counting endings.
     pub unseen_mechanics: Option<f64>,

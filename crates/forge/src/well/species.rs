@@ -1,4 +1,5 @@
-//! Counts of game parts, where each game counts a part once. They give the unseen mass and the most frequent part.
+//! Counts of game parts, where each game counts a part once. They yield the unseen probability mass and the most
+//! frequent part.
 
 use super::month::Top;
 use std::collections::BTreeMap;

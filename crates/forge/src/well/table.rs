@@ -4,7 +4,7 @@ use super::month::{Nearest, Top, Well, WellMonth};
 use report::{Column, Table, TableCell};
 
 impl Well {
-    /// Returns two tables: one of each month's rules, and one of its parts and texts.
+    /// Returns two tables with one row per month. The first is about the rules, and the second about parts and texts.
     pub fn tables(&self) -> [Table; 2] {
         [self.rules(), self.parts()]
     }

@@ -6,7 +6,7 @@ use base::Sampler;
 
 /// The sizes of pillars, as columns and rows.
 const PILLARS: [(usize, usize); 5] = [(1, 2), (2, 1), (2, 2), (3, 1), (1, 3)];
-/// The shapes of islands, each given as rectangles with offsets: an angle, a step, a bar, a block, a hook.
+/// The shapes of islands, each given as rectangles with offsets: an angle, a step, a bar, a block, a hook and a T.
 const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 1, 2), (0, 1, 3, 1)],
     &[(0, 0, 2, 1), (1, 1, 2, 1)],
@@ -16,7 +16,7 @@ const SHAPES: [&[(usize, usize, usize, usize)]; 6] = [
     &[(0, 0, 3, 1), (1, 1, 1, 1)],
 ];
 
-/// Draws a court that contains rows of pillars, each row shifted against the last, and one open quarter.
+/// Draws a court with rows of pillars, each row offset from the last. One quarter of the court stays open.
 pub(super) fn courtyard(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let (across, down) = *sampler.choose(&PILLARS);
@@ -83,7 +83,7 @@ pub(super) fn moat(canvas: &mut Canvas, sampler: &mut Sampler) {
     canvas.mark(inside, (across - 2, bottom.saturating_sub(inside.1)));
 }
 
-/// Draws a keep in a corner whose wall has a jog, and a short matching wall outside.
+/// Draws a keep in a corner of the board. The keep's wall has a jog, and a short matching wall stands outside.
 pub(super) fn keep(canvas: &mut Canvas, sampler: &mut Sampler) {
     let (width, height) = (canvas.width(), canvas.height());
     let x = between(sampler, 4, (width * 3 / 5).max(4));

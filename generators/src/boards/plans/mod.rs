@@ -1,4 +1,4 @@
-//! Board plans. Each plan is a site with a landmark, drawn in proportions of its own.
+//! Board plans. Each plan is a site with a landmark, and its proportions are drawn at random.
 
 mod courts;
 mod halls;
@@ -7,9 +7,9 @@ mod mirrored;
 use super::canvas::{Canvas, narrow};
 use base::{Sampler, Seed};
 
-/// The number of attempts to draw a plan before a different kind of plan is tried.
+/// The maximum number of plans to draw until one is sound.
 const DRAWS: u64 = 6;
-/// The maximum fraction of a plan's floor that may be narrow.
+/// The maximum fraction of a plan's floor that may consist of narrow passages.
 const MAX_NARROW: f64 = 0.3;
 
 /// A kind of plan.
@@ -75,7 +75,7 @@ impl PlanKind {
         KINDS[sampler.weighted(&weights).expect("the weights are positive")].0
     }
 
-    /// Returns `true` if the plan's walls are mirror images.
+    /// Returns `true` if the plan's walls are mirror-symmetric.
     fn is_mirrored(self) -> bool {
         matches!(self, PlanKind::Wings | PlanKind::Sanctum | PlanKind::Gatehouse | PlanKind::Quarters)
     }

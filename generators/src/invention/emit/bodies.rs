@@ -1,4 +1,4 @@
-//! The rules that follow from the bodies of types: rules for pushing, blocking and picking up.
+//! The rules that follow from the bodies (the physical nature) of types: rules for pushing, blocking and picking up.
 
 use super::{REMOVING, is_hero, name, own_name};
 use crate::invention::genome::Invention;
@@ -84,7 +84,7 @@ impl Bodies {
     }
 }
 
-/// Returns `true` if a rule removes a sprite of one of two types whenever they meet.
+/// Returns `true` if a rule removes a sprite whenever sprites of the two types meet.
 fn is_settled(before: &[InteractionLine], one: &str, other: &str) -> bool {
     let meet = |line: &InteractionLine, first: &str, second: &str| {
         line.first.text == first && line.second.iter().any(|word| word.text == second)

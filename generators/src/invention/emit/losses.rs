@@ -1,4 +1,4 @@
-//! The ways to lose: the loss of objects that an ending needs, and the loss of the player.
+//! The ways to lose: losing objects that an ending needs, and the player's death.
 
 use super::clauses::Clauses;
 use super::{REMOVING, lost_name, name, own_name};
@@ -7,8 +7,8 @@ use crate::invention::mechanic::{Body, Origin, OwnType, Port, Tag};
 use crate::invention::merge::{Merged, PortId};
 use engine::syntax::{InteractionLine, Param, SpriteLine, TerminationLine, Word};
 
-/// Makes the loss of a goal end the game, except for goals that the ending only needs removed. Returns the types that
-/// can be lost in this way.
+/// Makes the loss of a goal end the game, except for goals that only have to be removed. Returns the types that can be
+/// lost in this way.
 pub(super) fn lose_with_goals(
     invention: &Invention,
     types: &[Merged],
@@ -39,8 +39,8 @@ pub(super) fn lose_with_goals(
     losses
 }
 
-/// Returns the states of a type that an ending still counts as the type, because the mechanic of the state does not
-/// remove or use up the type.
+/// Returns the states of a type that an ending still counts as the type, because the mechanic that defines the state
+/// does not remove or use up the type.
 fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<String> {
     let merged = &types[class];
     let of_port = |((at, _), port): &(PortId, &'static Port)| {

@@ -21,13 +21,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// An invention's rules, with internal names.
 pub(in crate::invention) struct Written {
     pub(in crate::invention) description: Description,
-    /// The mechanic of each interaction, by its index; `None` for interactions that follow from bodies.
+    /// The index of each interaction's mechanic; `None` for interactions that follow from bodies.
     pub(in crate::invention) owners: Vec<Option<usize>>,
 }
 
 impl Written {
-    /// Removes the partner that triggers a compiler warning from its rule, if the rule follows from bodies. Returns
-    /// `false` if the rule belongs to a mechanic.
+    /// Removes a partner that triggers a compiler warning from its interaction, if the interaction follows from bodies.
+    /// Returns `false` if the interaction belongs to a mechanic.
     pub(in crate::invention) fn leave_out(
         &mut self,
         dressed: &mut Description,
@@ -54,7 +54,7 @@ impl Written {
     }
 }
 
-/// Returns the internal name of the type with the given class of ports.
+/// Returns the internal name of the type that fills the given class of ports.
 pub(in crate::invention) fn name(class: usize) -> String {
     format!("type{class}")
 }
@@ -146,8 +146,9 @@ pub(in crate::invention) fn write(invention: &Invention, types: &[Merged]) -> Re
     Ok(Written { description, owners })
 }
 
-/// Moves the rules by which the player's touch affects a solid type before the rules that affect the player. The latter
-/// run together with the rule that stops the player, after which the player no longer touches the type.
+/// Reorders the rules, so that the effects of the player's touch on a solid type precede the rules that affect the
+/// player. The latter run together with the rule that stops the player, after which the player no longer touches the
+/// type.
 fn touched_first(
     mut lines: Vec<(InteractionLine, Option<usize>)>,
     bodies: &Bodies,
@@ -235,7 +236,7 @@ fn termination(class: &str, params: &[(&str, &str)]) -> TerminationLine {
     TerminationLine { class: Word::from(class), params, ..TerminationLine::default() }
 }
 
-/// Returns the names of the types whose lines specify a class.
+/// Returns the names of the types whose lines specify the given class.
 fn of_class(lines: &[SpriteLine], class: &str) -> BTreeSet<String> {
     let has = |line: &&SpriteLine| line.class.as_ref().is_some_and(|word| word.text == class);
     lines.iter().filter(has).map(|line| line.name.text.clone()).collect()

@@ -46,7 +46,7 @@ pub(super) struct Fiction {
 type Wanted = (String, Body, Predicates);
 
 impl Fiction {
-    /// Returns `true` if there is a setting with a noun for every type. Cost: about 20 microseconds.
+    /// Returns `true` if some story setting has a noun for every type. Cost: about 20 microseconds.
     pub(super) fn can_name(types: &[Merged], mechanics: &[&'static Mechanic]) -> bool {
         let wanted = wanted(types, mechanics);
         Words::get().places.keys().any(|place| assign(&wanted, place, None).is_some())
@@ -155,7 +155,7 @@ fn wanted(types: &[Merged], mechanics: &[&'static Mechanic]) -> Vec<Wanted> {
     wanted
 }
 
-/// Assigns a noun from a setting to each type: a random fitting noun or, without a sampler, the first one.
+/// Assigns a noun from the given setting to each type: a random fitting noun or, without a sampler, the first one.
 fn assign(wanted: &[Wanted], place: &str, mut sampler: Option<&mut Sampler>) -> Option<Nouns> {
     let mut nouns = Nouns::new();
     for (stype, body, needs) in wanted {
@@ -183,8 +183,8 @@ fn last_word(noun: &str) -> String {
     noun[at..].to_ascii_lowercase()
 }
 
-/// Returns the castings of all types. The casting of a type is either a role, which determines colours and images, or
-/// the type of which it is a state.
+/// Returns the casting of each type. A casting is either a role, which determines colours and images, or the type of
+/// which this type is a state.
 fn castings(invention: &Invention, types: &[Merged]) -> BTreeMap<String, Casting> {
     let mut castings = BTreeMap::from([("hero".to_owned(), Casting::Role("hero".to_owned()))]);
     for (class, merged) in types.iter().enumerate() {

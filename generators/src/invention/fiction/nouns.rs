@@ -75,7 +75,7 @@ impl Noun {
     }
 
     /// Returns `true` if the noun fits a type with the given body and required predicates. Water and holes can be
-    /// solid. A thing of which only one can be carried has the body of ground, but the noun of an item.
+    /// solid. An object that can be carried only one at a time has the body of ground, but the noun of an item.
     pub(crate) fn fits(&self, body: Body, needs: Predicates) -> bool {
         let is_carried = needs.includes(Predicates::portable());
         let is_of_form = match body {
@@ -90,7 +90,7 @@ impl Noun {
         is_of_form && self.predicates.includes(needs)
     }
 
-    /// Returns `true` if the noun's object occurs in a setting.
+    /// Returns `true` if the noun's object occurs in the given setting.
     pub(crate) fn is_at(&self, place: &str) -> bool {
         self.places.iter().any(|other| *other == place || *other == "any")
     }

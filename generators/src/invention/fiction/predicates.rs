@@ -17,7 +17,7 @@ const WORDS: &[&str] = &[
 pub(crate) struct Predicates(u64);
 
 impl Predicates {
-    /// Returns the predicate of all items.
+    /// Returns the predicate that the nouns of all items share.
     pub(crate) fn portable() -> Predicates {
         let at = WORDS.iter().position(|word| *word == "portable").expect("the word is listed");
         Predicates(1 << at)

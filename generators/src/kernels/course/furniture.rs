@@ -27,7 +27,7 @@ pub(super) fn furnish(
             traits,
             placed: Vec::new(),
         };
-        // Items that need a specific position come first, and movers come before all other items.
+        // Movers on lanes come first, followed by the other items that need a specific position.
         let mut items: Vec<&Item> =
             room.items.iter().filter(|item| furnisher.is_there(&item.stype)).collect();
         items.sort_by_key(|item| match item.place {
@@ -107,7 +107,7 @@ impl Furnisher<'_> {
         self.placed.push(cell);
     }
 
-    /// Draws a cell for a sprite from those that best match its preferred position.
+    /// Draws one of the cells that best match a sprite's preferred position.
     fn cell(&self, item: &Item, board: &Board, sampler: &mut Sampler) -> Option<Cell> {
         let from = self.entry.or(self.openings.first().copied());
         let steps = match from {

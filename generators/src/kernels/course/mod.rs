@@ -20,7 +20,7 @@ const DRAWS: u64 = 24;
 
 /// The board sizes to which a game's levels may be stretched; `None` for games without a fixed size.
 const BOARDS: [Option<Cell>; 6] = [None, None, None, None, Some((18, 10)), Some((20, 11))];
-/// In games with a fixed board size, the fraction of boards to stretch.
+/// The fraction of boards to stretch in games with a fixed board size.
 const STRETCHED: (usize, usize) = (3, 4);
 
 /// The facts about a game's types that level builders need.

@@ -86,7 +86,7 @@ pub(super) fn build(
     Some(openings)
 }
 
-/// Fills the border between each two rooms with their link's divider or, without one, with the kernel's divider.
+/// Fills the border between any two adjacent rooms with their link's divider or, by default, with the kernel's divider.
 fn divide(map: &Map, kernel: &Kernel, traits: &Traits, embedding: &Embedding, board: &mut Board) {
     let is_there = |stype: &&String| traits.present.contains(*stype);
     for (number, one) in embedding.rooms.iter().enumerate() {

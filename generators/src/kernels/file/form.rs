@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub(crate) struct Form {
     pub(crate) name: String,
-    /// The sentence that replaces the kernel's dilemma in a form that lacks types mentioned there.
+    /// The sentence that replaces the kernel's dilemma if the form lacks types that the dilemma mentions.
     dilemma: Option<String>,
     goal: String,
     /// The types missing from the form. Sentences, levels, variants and rules that mention these types are omitted.

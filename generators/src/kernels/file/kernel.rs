@@ -18,10 +18,10 @@ use std::sync::OnceLock;
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub(crate) name: String,
-    /// The name of this form; `None` for the kernel itself.
+    /// The name of the kernel's form; `None` for the unmodified kernel.
     pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
-    /// The name of a similar kernel. A small set contains only one of the two.
+    /// The name of a similar kernel. A small set of games uses only one of the two kernels.
     pub(crate) like: Option<String>,
     /// A sentence that describes the whole game, with placeholders such as `<type>` for nouns.
     pub(crate) dilemma: String,
@@ -39,7 +39,7 @@ pub(crate) struct Kernel {
     pub(crate) numbers: Numbers,
     /// The types that maps may name although they are missing from this form.
     absent: Vec<String>,
-    /// The kernel's other forms, each as a separate kernel.
+    /// The kernel's modified forms, each as a separate kernel.
     forms: Vec<Kernel>,
 }
 
@@ -78,11 +78,11 @@ impl Casting {
 base::named_enum! {
     /// A level's purpose in a course of five levels, in course order.
     pub enum Slot {
-        /// The level introduces the trick in a small and safe setting.
+        /// The level introduces the game's trick in a small and safe setting.
         Introduce = "introduce",
-        /// The level repeats the trick in a setting where mistakes are costly.
+        /// The level repeats the game's trick in a setting where mistakes are costly.
         Confirm = "confirm",
-        /// The level combines the trick with a second mechanic.
+        /// The level combines the game's trick with a second mechanic.
         Combine = "combine",
         /// The level puts a twist on the familiar trick.
         Twist = "twist",
@@ -131,7 +131,8 @@ pub(crate) struct File {
     pub(crate) titles: Vec<String>,
     pub(crate) divider: Option<String>,
     pub(crate) rules: String,
-    /// For a form, the rules of the kernel itself. Maps use the numbers introduced in these rules.
+    /// The rules of the unmodified kernel, if the file describes one of its forms. Maps use the numbers introduced in
+    /// these rules.
     #[serde(skip)]
     pub(crate) whole_rules: String,
     pub(crate) roles: BTreeMap<String, Casting>,
@@ -330,12 +331,12 @@ impl Kernel {
         Ok(())
     }
 
-    /// Returns the kernel itself and then its other forms.
+    /// Returns the unmodified kernel, followed by its other forms.
     pub(crate) fn in_all_forms(&self) -> impl Iterator<Item = &Kernel> {
         iter::once(self).chain(&self.forms)
     }
 
-    /// Returns the rules, with some of the variants, as VGDL with the kernel's type names.
+    /// Returns the rules as VGDL, including the given variants. The types have the names used in the kernel.
     pub(crate) fn text(&self, variants: &[usize], values: &[u32]) -> String {
         let variants: Vec<&Variant> = variants.iter().map(|&variant| &self.variants[variant]).collect();
         let mut text =
@@ -367,7 +368,7 @@ impl Kernel {
 }
 
 impl LevelPlan {
-    /// Returns the map with the given numbers.
+    /// Returns the map, with the given values for its numbers.
     pub(crate) fn map(&self, values: &[u32]) -> Result<Map, String> {
         Map::read(&self.map.fill(values)).map_err(|fault| format!("slot {:?}: {fault}", self.slot))
     }

@@ -217,7 +217,7 @@ impl Map {
 }
 
 impl Link {
-    /// Returns the room at the other end of the link; `None` if the link does not start at `room`.
+    /// Returns the room at the other end of the link; `None` if the link does not connect `room`.
     pub(crate) fn from(&self, room: usize) -> Option<usize> {
         match self.between {
             (one, two) if one == room => Some(two),

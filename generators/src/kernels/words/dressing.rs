@@ -15,8 +15,7 @@ pub(crate) struct Palette<'a> {
     nouns: &'a Nouns,
     hero: &'static str,
     taken: Vec<String>,
-    /// The colours assigned so far, by type. The colour of a state is stored under the type or role of which it is a
-    /// state.
+    /// The colours assigned so far, by type. For a state, the key is the type or role to which the state belongs.
     given: BTreeMap<String, String>,
 }
 
@@ -29,7 +28,7 @@ impl<'a> Palette<'a> {
 
     /// Assigns a colour to every type.
     pub(crate) fn color_all(&mut self, lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Casting>) {
-        // A state takes the colour of its thing, whose line may come later.
+        // A state takes the colour of the type to which it belongs, whose line may come later.
         self.color(lines, roles, false);
         self.color(lines, roles, true);
     }
@@ -55,7 +54,7 @@ impl<'a> Palette<'a> {
         }
     }
 
-    /// Draws a colour for a type. The player gets the colour from the habits, a noun with a natural colour gets that
+    /// Draws a colour for a type. The player gets the palette's hero colour, a noun with a natural colour gets that
     /// colour, and any other type gets a colour that suits its role.
     fn draw(&mut self, name: &str, role: &str) -> String {
         let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));
@@ -84,7 +83,7 @@ pub(crate) fn picture_lines(lines: &mut [SpriteLine], roles: &BTreeMap<&str, &Ca
                     Some(Casting::Role(role)) => role,
                     _ => of,
                 };
-                // The noun of a state consists of an adjective and the noun of the thing.
+                // A state's noun consists of an adjective and the object's noun.
                 let thing = noun.strip_prefix(adjective.as_str()).unwrap_or(noun);
                 let mut letters = thing.chars();
                 let first = letters.next().map(|letter| letter.to_ascii_lowercase());

@@ -26,7 +26,7 @@ const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "p
 /// alone.
 const LONGEST: usize = 20;
 
-/// Draws the names of a game's types, by their names in the kernel. `wall` and types without a noun keep their names.
+/// Draws names for a game's types, by their names in the kernel. `wall` and types without a noun keep their names.
 pub(crate) fn names<'a>(
     nouns: &Nouns,
     castings: impl Iterator<Item = (&'a String, &'a Casting)>,
@@ -79,11 +79,11 @@ impl Names<'_> {
 
     fn state(&mut self, stype: &str, of: &str, adjective: &str) {
         let noun = &self.nouns[stype];
-        // The noun of a state consists of an adjective and the noun of the thing.
+        // A state's noun consists of an adjective and the object's noun.
         let thing = noun.strip_prefix(adjective).unwrap_or(noun);
         let thing = self.given.get(of).cloned().unwrap_or_else(|| short(thing));
         let both = format!("{adjective}{}", english::capital(&thing));
-        // Some kernels have a word of their own for a state, such as a follower, ashes or `dazed`.
+        // Some kernels have their own word for a state, such as a follower, ashes or `dazed`.
         let is_word = !stype.contains(|c: char| c.is_ascii_uppercase());
         let tells_more = is_word && !vocabulary::is_role(stype);
         let first = match (of, adjective) {

@@ -15,8 +15,8 @@ pub(crate) struct Board {
     pub(crate) placed: Vec<Option<u8>>,
     /// For each cell, `true` if it is reserved and must stay free.
     pub(crate) kept: Vec<bool>,
-    /// For each cell, the number of the gate in front of it, counting gates in the order of placement; 0 without a
-    /// gate.
+    /// For each cell, the number of the gate in front of it; 0 if there is no gate. Gates are numbered in the order of
+    /// placement.
     pub(crate) zone: Vec<u8>,
     /// The cell where the avatar starts.
     pub(crate) start: usize,
@@ -79,7 +79,7 @@ impl Board {
         self.grid.around(cell).iter().filter(|next| next.is_none_or(|next| self.wall[next])).count()
     }
 
-    /// Returns the number of sprites of a type among the placed characters.
+    /// Returns the number of sprites of the given type among the placed characters.
     pub(crate) fn count(&self, analysis: &Analysis, stype: SpriteType) -> usize {
         let placed = self.placed.iter().flatten();
         placed.flat_map(|&symbol| analysis.game().places(symbol)).filter(|&&placed| placed == stype).count()

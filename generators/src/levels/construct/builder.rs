@@ -11,10 +11,10 @@ use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, SpriteType};
 
-/// The weight factor for a cell next to a companion, which is a sprite that almost always stands next to such a sprite
-/// in the examples.
+/// The weight factor for a cell next to a companion. In the examples, a companion almost always stands next to a sprite
+/// of the type to be placed.
 const COMPANION_WEIGHT: u32 = 1000;
-/// For types that stand in lines in the examples, the weight factor for a cell in line with other sprites of the type.
+/// The weight factor for a cell in line with other sprites of a type, if such sprites stand in lines in the examples.
 const LINE_WEIGHT: u32 = 40;
 
 /// A level under construction, with all data needed for decisions about it.
@@ -190,15 +190,15 @@ impl Builder<'_> {
         self.analysis.game().sprite_types().filter(|stype| target.counts[stype.index()].0 > 0).collect()
     }
 
-    /// Draws `true` if a sprite must stand next to another sprite of its type, with the probability found in the
-    /// examples; `None` if the position does not matter.
+    /// Decides at random whether a sprite must stand next to another sprite of its type, with the probability found in
+    /// the examples. Returns `None` if the position does not matter.
     pub(crate) fn draw_group(&mut self, stype: SpriteType) -> Option<bool> {
         let share = self.examples()?.placement(stype).grouped();
         let first = self.log.iter().all(|(_, kind)| *kind != stype);
         (!first).then(|| self.sampler.unit() < 0.8 * share)
     }
 
-    /// Returns the mirror image of the cell from left to right, if it is free and sprites of the type occur in such
+    /// Returns the mirror image of the cell from left to right, if it is free and sprites of the type occur in mirrored
     /// pairs in the examples.
     pub(crate) fn twin(&self, cell: usize, stype: SpriteType) -> Option<usize> {
         self.examples().filter(|examples| examples.placement(stype).is_mirrored())?;
@@ -273,7 +273,7 @@ impl Builder<'_> {
         in_the_way && self.board.would_cut(self.palette, cell)
     }
 
-    /// Returns the number of cells ahead of `cell` in a direction before the next wall or obstacle.
+    /// Returns the number of cells ahead of `cell` in the given direction before the next wall or obstacle.
     pub(crate) fn run(&self, cell: usize, way: (i32, i32)) -> usize {
         let mut length = 0;
         let mut at = cell;
@@ -291,7 +291,7 @@ impl Builder<'_> {
         length
     }
 
-    /// Returns `true` if the avatar's start is ahead of `cell` in a direction, with no obstacle in between.
+    /// Returns `true` if the avatar's start is ahead of `cell` in the given direction, with no obstacle in between.
     pub(crate) fn aims_at_start(&self, cell: usize, way: (i32, i32)) -> bool {
         let (dx, dy) = self.board.grid.offset(cell, self.board.start);
         let ahead = if way.0 != 0 { dy == 0 && dx * way.0 > 0 } else { dx == 0 && dy * way.1 > 0 };

@@ -28,7 +28,7 @@ const PUZZLES: u64 = 30;
 
 /// The rank of a board that meets all wishes.
 const ALL: u32 = 0b1111;
-/// The number of layouts to draw. The one whose walls are most similar to the examples is used.
+/// The number of layouts to draw. The layout whose walls are most similar to the examples is used.
 const LAYOUTS: usize = 2;
 /// The maximum fraction of inner walls at which a board counts as intentionally bare.
 const BARE: f64 = 0.02;
@@ -234,7 +234,7 @@ impl<'a> ConstructiveLevels<'a> {
             grid.columns -= usize::from(grid.columns & 1 == 0 && grid.columns > self.config.columns.0);
             grid.rows -= usize::from(grid.rows & 1 == 0 && grid.rows > self.config.rows.0);
         }
-        // If something chases the avatar, its survival depends on alternative routes.
+        // If something chases the avatar, the avatar's survival depends on alternative routes.
         let chased = furnishable(&self.analysis, &self.palette, Role::Enemy)
             .into_iter()
             .any(|stype| matches!(self.analysis.facts(stype).motion, Motion::Chasing(_)));
@@ -347,7 +347,8 @@ impl<'a> ConstructiveLevels<'a> {
         Board::new(grid, layout::walls(family, grid, ring, loops, layout))
     }
 
-    /// Creates a pushing puzzle and plays its solution. Returns `None` if the board does not work.
+    /// Creates a pushing puzzle and plays its solution. Returns `None` if no puzzle fits the board, or if the solution
+    /// fails.
     fn puzzle(&self, plan: &Jobs, mut builder: Builder<'_>, seed: Seed) -> Option<Made> {
         let ways = builder.warehouse(plan)?;
         let bare = self.play(&builder.board, &ways, plan.is_all, seed)?;
@@ -359,7 +360,8 @@ impl<'a> ConstructiveLevels<'a> {
             return Some(Made { board: builder.board, solution: None, played: true, expected });
         }
         let furnished = self.play(&builder.board, &ways, plan.is_all, seed);
-        // If later furniture blocks the puzzle, the level goes without it, unless it only upsets the timing.
+        // If later furniture breaks the solution of a turn-based game, the furniture is omitted. In other games, it
+        // stays, because it may only have changed the timing.
         let (board, actions) = match furnished {
             None if self.analysis.is_turn_based() => (puzzle, Some(bare)),
             actions => (builder.board, actions),

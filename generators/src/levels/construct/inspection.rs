@@ -143,7 +143,7 @@ impl ConstructiveLevels<'_> {
         })
     }
 
-    /// Returns `true` if a path of open cells leads to the target such that each step brings it nearer.
+    /// Returns `true` if a path of open cells leads to the target and each of its steps comes nearer to the target.
     fn is_approached(&self, board: &Board, from: usize, aim: usize, open: impl Fn(usize) -> bool) -> bool {
         let grid = board.grid;
         let mut reached = vec![from];

@@ -7,7 +7,7 @@ use engine::analysis::{Fate, Key, Lock, Pushable, Role, Sink, Steering};
 use engine::{Analysis, SpriteType};
 use itertools::Itertools;
 
-/// A task: to push a sprite onto a partner.
+/// The task of pushing a sprite onto a partner.
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
     pub(crate) pushed: SpriteType,
@@ -31,7 +31,7 @@ pub(crate) struct Jobs {
     pub(crate) bridge: bool,
     /// The door that the last job opens; `None` if the last job does not open a door.
     pub(crate) door: Option<SpriteType>,
-    /// The gate in front of the sprites to visit; `None` if a bridge or a door is in front of them, or nothing at all.
+    /// The gate in front of the sprites to visit; `None` if a bridge, a door or nothing is in front of them.
     pub(crate) gate: Option<SpriteType>,
     /// The number of visits to the gate's keys. These visits come first.
     pub(crate) keys: usize,

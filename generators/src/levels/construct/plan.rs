@@ -14,8 +14,8 @@ pub(crate) struct Wish {
     pub(crate) count: usize,
 }
 
-/// Returns the types with which to furnish a board with `area` open cells, and the number of each. Gates, keys, walls
-/// and soil are placed separately.
+/// Returns the types for furnishing a board that has `area` open cells, and the number of each. Gates, keys, walls and
+/// soil are placed separately.
 pub(crate) fn wishes(
     analysis: &Analysis,
     palette: &Palette,
@@ -39,7 +39,7 @@ pub(crate) fn wishes(
     wishes
 }
 
-/// Returns the types with which to furnish a level, and the number of each, following the examples.
+/// Returns the types for furnishing a level, and the number of each, following the examples.
 pub(crate) fn wishes_like(
     analysis: &Analysis,
     palette: &Palette,
@@ -78,7 +78,7 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role, count });
         }
     }
-    // These keys come in addition to those that locks need.
+    // The keys added here come in addition to those that locks need.
     for stype in furnishable(analysis, palette, Role::Key) {
         wishes.push(Wish { stype, role: Role::Key, count: target.counts[stype.index()].0 });
     }
@@ -120,8 +120,8 @@ const ROLES: [Role; 16] = [
     Role::Collectable,
 ];
 
-/// Returns the types with a role that are worth placing. Such types have a level character, persist, and are not mere
-/// projectiles.
+/// Returns the types with the given role that are worth placing. Such types have a level character, persist, and are
+/// not mere projectiles.
 pub(crate) fn furnishable(analysis: &Analysis, palette: &Palette, role: Role) -> Vec<SpriteType> {
     let types = analysis.game().sprite_types().filter(|&stype| {
         let facts = analysis.facts(stype);
@@ -152,8 +152,8 @@ fn is_special_floor(analysis: &Analysis, palette: &Palette, stype: SpriteType) -
     analysis.role(stype) == Role::Floor && !palette.ground.contains(&stype) && takes_part()
 }
 
-/// Returns the total number of sprites of all types with a role. `wanted` is `true` if these sprites must be removed
-/// for a win.
+/// Returns the total number of sprites of all types with the given role. `wanted` is `true` if these sprites must be
+/// removed for a win.
 fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) -> f64 {
     match role {
         Role::Exit | Role::Portal | Role::PortalExit | Role::Neutral => 1.0,
@@ -174,7 +174,7 @@ fn total(role: Role, wanted: bool, harmful: bool, area: f64, difficulty: f64) ->
     }
 }
 
-/// Returns the minimum number of sprites for a role. If the types of the role differ in meaning, the minimum is one
+/// Returns the minimum number of sprites for a role. If the types with the role differ in meaning, the minimum is one
 /// sprite per type, unless there are too many types.
 fn least(role: Role, types: usize) -> usize {
     match role {

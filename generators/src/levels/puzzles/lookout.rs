@@ -23,7 +23,7 @@ const NEVER: u16 = u16::MAX;
 /// The actions for the steps in [`WAYS`].
 pub(crate) const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
-/// An avatar's moves among strays, as states with steps between them.
+/// An avatar's moves among strays (randomly wandering sprites), as a graph of states and steps.
 pub(crate) trait Moves {
     /// Returns the number of states.
     fn states(&self) -> usize;
@@ -33,7 +33,7 @@ pub(crate) trait Moves {
     fn cell(&self, state: usize) -> usize;
     /// Returns `true` if a state is won.
     fn is_won(&self, state: usize) -> bool;
-    /// Returns `true` if the avatar would be killed in a cell after a tick by something other than a stray.
+    /// Returns `true` if something other than a stray would kill the avatar in the given cell after the given tick.
     fn is_busy(&self, tick: usize, cell: usize) -> bool;
     /// Returns the possible steps in a state, each with the state after the step. A step is an index into [`WAYS`], or
     /// `None` for a rest.
@@ -46,12 +46,13 @@ pub(crate) struct Strays {
     pub(crate) grid: Grid,
     pub(crate) is_floor: Vec<bool>,
     pub(crate) cells: Vec<usize>,
-    /// The number of ticks that a stray takes to move one cell.
+    /// The number of ticks that a stray (a randomly wandering sprite) takes to move one cell.
     pub(crate) cooldown: usize,
 }
 
 impl Strays {
-    /// Returns `true` if the strays move in a tick. Strays that do not move in every tick rest in the first tick.
+    /// Returns `true` if the strays move in the given tick. Strays that do not move in every tick rest in the first
+    /// tick.
     fn move_in(&self, tick: usize) -> bool {
         (tick + 1).is_multiple_of(self.cooldown)
     }
@@ -70,7 +71,7 @@ pub(crate) struct Lookout<M> {
     /// For each tick and each state before it, the earliest tick at which the player could win without strays, or
     /// [`NEVER`].
     finish: Vec<u16>,
-    /// The probability of surviving each number of ticks.
+    /// For each number of ticks, the probability of surviving that long.
     survival: Vec<f64>,
 }
 
@@ -313,13 +314,13 @@ impl<M: Moves> Lookout<M> {
             .collect()
     }
 
-    /// Returns a stray's cell after a step in a direction.
+    /// Returns a stray's cell after a step in the given direction.
     fn walked(&self, cell: usize, way: (i32, i32)) -> usize {
         self.strays.grid.shift(cell, way).filter(|&next| self.strays.is_floor[next]).unwrap_or(cell)
     }
 }
 
-/// Returns the probability of surviving each number of ticks.
+/// Returns, for each number of ticks, the probability of surviving that long.
 fn survival(each: f64, ticks: usize) -> Vec<f64> {
     std::iter::successors(Some(1.0), |last| Some(last * each)).take(ticks + 1).collect()
 }

@@ -116,7 +116,7 @@ impl Vocabulary {
         self.kinds[usize::from(symbol)]
     }
 
-    /// Returns the minimum and maximum number of a character.
+    /// Returns the minimum and maximum number of the given character.
     pub(crate) fn bounds(&self, symbol: u8) -> (usize, usize) {
         self.bounds[usize::from(symbol)]
     }
@@ -219,18 +219,19 @@ impl<'v> Draft<'v> {
         (0..self.grid.len()).find(|&cell| self.kind(cell) == SymbolUse::Avatar)
     }
 
-    /// Returns the number of cells with a character.
+    /// Returns the number of cells that contain the given character.
     pub(crate) fn count(&self, symbol: u8) -> usize {
         self.cells.iter().filter(|&&other| other == symbol).count()
     }
 
-    /// Returns the number of sprites of a type in the level.
+    /// Returns the number of sprites of the given type in the level.
     fn sprites(&self, stype: SpriteType) -> usize {
         let places = self.cells.iter().flat_map(|&symbol| self.levels.game.places(symbol));
         places.filter(|&&placed| placed == stype).count()
     }
 
-    /// Returns the ground character next to a cell, for clearing the cell.
+    /// Returns a ground character with which a cell can be cleared. If possible, it is the character of adjacent
+    /// ground.
     pub(crate) fn ground_at(&self, cell: usize) -> u8 {
         let mut beside = self.grid.beside(cell).filter(|&next| self.is_ground(next));
         beside.next().map_or(self.levels.palette.base, |next| self.cells[next])
@@ -344,8 +345,8 @@ impl<'v> Draft<'v> {
         matches!(self.walls_beside(cell), [false, true, false, true] | [true, false, true, false])
     }
 
-    /// Returns `true` if a character belongs in a cell. Gates need walls on both sides. If the avatar moves along a
-    /// line, every sprite keeps its normal distance from that line.
+    /// Returns `true` if the given character belongs in the cell. Gates need walls on both sides. If the avatar moves
+    /// along a line, every sprite keeps its normal distance from that line.
     pub(crate) fn is_in_place(&self, symbol: u8, cell: usize) -> bool {
         let gate = self.vocabulary.kind(symbol) == SymbolUse::Thing(Role::Gate);
         let place = || across(self.levels, self.grid, cell);

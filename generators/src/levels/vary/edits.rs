@@ -1,4 +1,4 @@
-//! Small, meaningful changes to a level, such as a designer would make next.
+//! Small, meaningful changes to a level, of the kind that a designer would make next.
 
 use super::draft::{Draft, SymbolUse};
 use crate::levels::construct::layout;
@@ -11,7 +11,7 @@ use engine::analysis::{Motion, Role, Steering};
 const NEAR: usize = 2;
 /// The maximum number of wall cells that move together.
 const SEGMENT: usize = 6;
-/// The minimum side length of a part of the level that is redrawn.
+/// The minimum side length of the part of a level to redraw.
 const PART: usize = 4;
 
 /// A kind of change.
@@ -45,7 +45,7 @@ pub(crate) enum Edit {
     Regrow,
 }
 
-/// All kinds, with their weights in the draw.
+/// All kinds of changes, with their weights.
 const EDITS: [(Edit, u32); 13] = [
     (Edit::Nudge, 5),
     (Edit::Carry, 4),
@@ -94,7 +94,7 @@ impl Edit {
 
 impl Draft<'_> {
     /// Applies a change of the given kind. Returns `None` if there is nothing to change, or if the drawn change does
-    /// not work. In that case, the draft must be discarded.
+    /// not work. The draft must then be discarded.
     pub(crate) fn edit(&mut self, edit: Edit, sampler: &mut Sampler) -> Option<()> {
         match edit {
             Edit::Nudge => self.nudge(sampler),

@@ -123,8 +123,8 @@ impl Variation for LevelVariation<'_> {
         mutated.unwrap_or_else(|| parent.clone())
     }
 
-    /// Copies a half or a rectangle from the second level into the first, as far as they overlap. Mutates the first
-    /// level if several attempts fail to yield a level.
+    /// Copies a half or a rectangle from the second level into the first, as far as the two levels overlap. Mutates the
+    /// first level if several attempts fail to yield a level.
     fn cross(&self, one: &Level, two: &Level, sampler: &mut Sampler) -> Level {
         let (first, second) = (self.draft(one), self.draft(two));
         let crossed = (0..ATTEMPTS).find_map(|_| self.crossed(&first, &second, sampler));

@@ -28,7 +28,8 @@ base::named_enum! {
     }
 }
 
-/// The planners of the portfolio that play. Each plays in open loop, that is, without observing the game during a plan.
+/// The portfolio's planners that play the episodes. Each plays in open loop, that is, without observing the game during
+/// a plan.
 const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(200);

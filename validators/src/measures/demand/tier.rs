@@ -39,11 +39,11 @@ pub const TIERS: [TierBounds; 4] = [
 
 /// The longest commitment at which foresight counts as a trap.
 const FORESIGHT: Commitment = Commitment::Five;
-/// The minimum fraction of dead ends, among the states near the win, that counts as a trap.
+/// The minimum fraction of dead ends, among the states near the win, for the dead ends to count as a trap.
 const DEAD_ENDS: f64 = 0.03;
-/// The minimum number of self-moving sprites next to the route that counts as a trap.
+/// The minimum number of self-moving sprites next to the route for the sprites to count as a trap.
 const MOVERS: usize = 3;
-/// The minimum fraction of episodes lost by greedy players that counts as a trap.
+/// The minimum fraction of episodes that greedy players must lose for the losses to count as a trap.
 const LOSSES: f64 = 0.75;
 
 impl Demand {
@@ -67,7 +67,7 @@ impl Tier {
     /// All tiers, from lowest to highest.
     pub const ALL: [Tier; 4] = [Tier::One, Tier::Two, Tier::Three, Tier::Four];
 
-    /// Returns the highest tier all of whose demands are met.
+    /// Returns the highest tier whose demands are all met.
     pub(super) fn of(demand: &Demand) -> Tier {
         let traps = demand.traps().into_iter().filter(|&there| there).count();
         let met = |bounds: &&TierBounds| demand.decisions >= bounds.decisions && traps >= bounds.traps;

@@ -1,4 +1,4 @@
-//! The distances between games' rules, within the set and to the corpus.
+//! The distances between the rules of games in the set, and from these games to the corpus.
 
 use super::entry::{Measured, Nearest};
 use base::Digest;

@@ -52,8 +52,8 @@ pub struct GameSetReport {
 }
 
 impl GameSetReport {
-    /// Creates the report on a set. Costs one survey row per game and one comparison per pair of games, on all
-    /// threads.
+    /// Creates the report on a set, using all threads. Costs one survey row per game and one comparison per pair of
+    /// games.
     pub fn of(sample: &GamesSample<'_>) -> GameSetReport {
         let GamesSample { method, games, corpus, criteria, cost, seed } = *sample;
         let measured: Vec<Measured<'_>> =

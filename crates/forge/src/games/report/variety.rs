@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::measures::{AvatarKind, GoalKind};
 
-/// The games of one kind. A kind combines the avatar's abilities with the goal to win.
+/// The games with one kind of avatar and one kind of goal.
 #[derive(Serialize)]
 struct Pair {
     avatar: AvatarKind,

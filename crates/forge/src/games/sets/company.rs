@@ -40,7 +40,7 @@ impl Families {
 }
 
 impl Company {
-    /// Returns the reason why a game must be rejected whatever its levels, if there is one.
+    /// Returns the reason why a game must be rejected regardless of its levels, if there is one.
     pub(crate) fn objection(&self, candidate: &Candidate) -> Option<&'static str> {
         self.objection_to(&candidate.game, &candidate.title)
     }

@@ -19,7 +19,7 @@ const REDRAWS: u64 = 4;
 /// The number of positions that have spare sets. Small releases contain at most this number of games.
 const SMALL: usize = 16;
 
-/// The number of spare sets of each of the first [`SMALL`] positions. Spare sets are taken from the end of the list,
+/// The number of spare sets for each of the first [`SMALL`] positions. Spare sets are taken from the end of the list,
 /// which few other positions reach.
 const SPARE: usize = 3;
 
@@ -62,7 +62,7 @@ fn built(genome: &KernelGenome) -> Option<(Game, String)> {
     Some((rules, title))
 }
 
-/// Returns the form of a game's rules; `None` if the rules do not compile.
+/// Returns the form of a game's rules, by which games are compared; `None` if the rules do not compile.
 fn form_of(genome: &KernelGenome) -> Option<GameForm> {
     Some(GameForm::of(&built(genome)?.0))
 }
@@ -162,7 +162,7 @@ impl RuleSets {
         all.filter(|set| !earlier.iter().any(|game| set.form.is_near(game))).count()
     }
 
-    /// Returns all sets, starting with the opening.
+    /// Returns all sets, starting with the first set of each kernel.
     fn all(&self) -> &[RuleSet] {
         self.all.get_or_init(|| {
             let of_kernels = self.kernels.iter().map(|of_kernel| self.of_kernel(of_kernel).to_vec());
@@ -190,8 +190,8 @@ impl RuleSets {
         sets.get(at)
     }
 
-    /// Draws a game from a set. Its parameters differ from the set's, unless every draw of new parameters brings the
-    /// game near another set.
+    /// Draws a game from a set. The game's parameters differ from the set's, unless every draw of new parameters brings
+    /// the game near another set.
     pub(crate) fn draw_of(&self, set: &RuleSet, seed: Seed) -> KernelGenome {
         let mut drawn = (0..REDRAWS).map(|draw| set.genome.redrawn(seed.child("numbers", draw)));
         drawn.find(|genome| self.is_of(genome, set)).unwrap_or_else(|| set.genome.clone())

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use report::{Mean, Section, Share};
 use std::collections::BTreeSet;
 
-/// The maximum distance of near-duplicates.
+/// The maximum distance between near-duplicates.
 pub(crate) const NEAR: f64 = 0.05;
 
 /// The distances between the levels in a set.
@@ -19,7 +19,7 @@ pub(super) struct Distances {
 }
 
 impl Distances {
-    /// Computes the distances. Cost: one comparison per pair of levels, on all threads.
+    /// Computes the distances, using all threads. Cost: one comparison per pair of levels.
     pub(super) fn of(levels: &[SurveyedLevel], likeness: &LevelSimilarity) -> Distances {
         let row = |at: usize| -> Vec<f64> {
             let others = levels.iter().enumerate().filter(|(other, _)| *other != at);

@@ -37,7 +37,7 @@ pub struct Sample<'a> {
     pub levels: &'a [SurveyedLevel],
     /// The game's own levels, for comparison; empty if the game has no levels of its own.
     pub examples: &'a [SurveyedLevel],
-    /// The labels of levels generated without a requested difficulty. They serve as the baseline of picking levels at
+    /// The labels of levels generated without a requested difficulty. They serve as the baseline for picking levels at
     /// random.
     pub pool: &'a [Difficulty],
     /// The cost of generating the levels, without the cost of judging them for the report.
@@ -59,7 +59,7 @@ pub struct LevelSetReport {
 }
 
 impl LevelSetReport {
-    /// Creates the report on a set. Cost: one comparison per pair of levels, on all threads. All other costs are
+    /// Creates the report on a set, using all threads. Cost: one comparison per pair of levels. All other costs are
     /// small.
     pub fn of(sample: &Sample<'_>) -> LevelSetReport {
         let Sample { analysis, method, levels, examples, pool, cost } = *sample;

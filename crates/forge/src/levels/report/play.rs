@@ -166,7 +166,7 @@ struct LineUse {
     rule: String,
     /// `true` if the interaction is with the edge of the screen.
     guard: bool,
-    /// Among the levels with a witness, the fraction whose witness executes the interaction.
+    /// The fraction of levels with a witness on which the witness executes the interaction.
     levels: Share,
 }
 

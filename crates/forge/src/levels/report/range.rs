@@ -4,7 +4,7 @@
 use crate::survey::SurveyedLevel;
 use serde::Serialize;
 
-/// The pairs of measures to plot, each as x and then y. The pairs were chosen before any level was generated.
+/// The pairs of measures to plot, as (x, y). The pairs were chosen before any level was generated.
 const PAIRS: [(&str, &str); 6] = [
     ("openness", "ticks"),
     ("cover", "pressure"),
@@ -24,9 +24,9 @@ pub struct Range {
     pub x: Axis,
     /// The measure on the vertical axis.
     pub y: Axis,
-    /// The value pairs, x then y, of the levels that have both measures.
+    /// The (x, y) values of the levels that have both measures.
     pub levels: Vec<[f64; 2]>,
-    /// The value pairs of the game's own levels that have both measures.
+    /// The (x, y) values of the game's own levels, as far as they have both measures.
     pub examples: Vec<[f64; 2]>,
     /// The number of levels in each cell, as [`BINS`] rows from bottom to top with [`BINS`] cells each.
     pub cells: Vec<Vec<u64>>,

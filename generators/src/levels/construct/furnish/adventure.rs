@@ -95,8 +95,8 @@ impl Builder<'_> {
         })
     }
 
-    /// Returns the weight of a cell's footing. If the avatar falls, most sprites stand on the ground, but goods may
-    /// hang in the air.
+    /// Returns the weight of a cell according to its footing. If the avatar falls, most sprites stand on the ground,
+    /// but goods may hang in the air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
             _ if !self.avatar_falls() => 1,
@@ -120,7 +120,7 @@ impl Builder<'_> {
         let walls = self.board.walls_around(cell) as u32;
         match role {
             Role::Exit => {
-                // If there is a gate, the cell is behind the first one. Otherwise, it is far away, and farther at
+                // The exit lies behind the first gate, if there is one. Otherwise, it lies far away, and farther at
                 // higher difficulty.
                 let wanted = u8::from(self.board.zone.contains(&1));
                 let far = share >= 55 + (30.0 * self.difficulty()) as u32;
@@ -169,7 +169,7 @@ impl Builder<'_> {
                 if from_start < 3 || pair < 5 { 0 } else { share }
             }
             Role::Key => {
-                // The cell is not on the way to the exit, and not next to the start.
+                // A key lies neither on the way to the exit nor next to the start.
                 let apart = self.apart_from(cell, Role::Exit).min(8) as u32;
                 if from_start < 3 { 0 } else { own_kind * apart * (1 + share) / 16 }
             }
@@ -207,7 +207,7 @@ impl Builder<'_> {
         if room < 2 || self.aims_at_start(cell, way) || self.aims_at_start(cell, back(way)) {
             return 0;
         }
-        // At most one mover per row or column.
+        // A row or column contains at most one mover.
         let lane = self.log.iter().any(|&(other, kind)| {
             let grid = self.board.grid;
             let same = if way.0 != 0 { grid.y(other) == grid.y(cell) } else { grid.x(other) == grid.x(cell) };
@@ -242,7 +242,7 @@ impl Builder<'_> {
         made.max().unwrap_or(2).max(4)
     }
 
-    /// Returns the number of sprites of a type in the eight cells around a cell.
+    /// Returns the number of sprites of the given type in the eight cells around a cell.
     fn crowd(&self, cell: usize, stype: SpriteType) -> usize {
         let around = self.board.grid.around(cell).into_iter().flatten();
         around.filter(|&next| self.log.contains(&(next, stype))).count()
@@ -406,8 +406,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places refills for a resource that the ground drains. They are dense enough that no path between two refills is
-    /// longer than the supply lasts.
+    /// Places refills for a resource that the ground drains. The refills are dense enough that no path between two of
+    /// them is longer than the supply lasts.
     fn fuel(&mut self) {
         let Some(start) = self.analysis.start_avatar() else { return };
         for resource in self.analysis.resources() {

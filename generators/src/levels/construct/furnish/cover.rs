@@ -6,9 +6,9 @@ use crate::levels::grid::FAR;
 use engine::analysis::{Role, Steering};
 
 impl Builder<'_> {
-    /// Adds walls (or other sprites, on boards without walls) until enough cells are covered, or removes some until no
-    /// more than requested are. All sprites that the game requires are preserved, and no cell is cut off, so the
-    /// requested cover is not always reached.
+    /// Adds walls until enough cells are covered, or removes walls and sprites until no more cells are covered than
+    /// requested. On boards without walls, adds other sprites. All sprites that the game requires are preserved, and no
+    /// cell is cut off, so the requested cover is not always reached.
     pub(crate) fn adjust_cover(&mut self) {
         let Some((low, high)) = self.config.cover else { return };
         if is_cover(self.analysis, self.palette.base) {

@@ -6,7 +6,7 @@ use crate::levels::construct::plan::Wish;
 use engine::SpriteType;
 use engine::analysis::{Motion, Role, Steering};
 
-/// A field from the avatar's point of view. In coordinates, `along` is the position on the avatar's line of movement,
+/// A field from the avatar's point of view. The coordinate `along` is the position on the avatar's line of movement,
 /// and `deep` is the row counted from the far side.
 struct Field {
     upright: bool,

@@ -14,14 +14,14 @@ pub(crate) struct Push {
     pub(crate) way: (i32, i32),
 }
 
-/// A floor plan with pushable objects. The state is the one before the pushes found so far.
+/// A floor plan with pushable objects, in the state before the pushes found so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Pulls {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
     /// The pushable object in each cell; `None` for cells without one.
     pub(crate) things: Vec<Option<SpriteType>>,
-    /// The partner of a job in each cell, with `true` if the avatar can currently enter the cell.
+    /// For each cell with a job's partner, the partner, and `true` if the avatar can currently enter the cell.
     pub(crate) partners: Vec<Option<(SpriteType, bool)>>,
     /// For each cell, `true` if pushing objects into it is forbidden.
     pub(crate) barred: Vec<bool>,
@@ -141,7 +141,8 @@ impl Pulls {
             self.things[thing] = None;
             self.things[from] = Some(stype);
         }
-        // Avoid states in which the avatar is confined, because it may have more to pull and levels start in the open.
+        // Avoid states in which the avatar is confined, because it may have more objects to pull, and because levels
+        // start in the open.
         let widest = nodes.iter().map(|node| node.room).max().unwrap_or(0);
         let wide = |node: &Node| node.room * 2 >= widest;
         let deepest = nodes.iter().filter(|node| wide(node)).map(|node| node.depth).max().unwrap_or(0);

@@ -13,8 +13,8 @@ pub(crate) struct Bottleneck {
 }
 
 impl Builder<'_> {
-    /// Places gates in bottlenecks of the area that is still open, and numbers the zones behind them from 1 in that
-    /// order. The key to a gate may lie behind a gate with a higher number. Returns the placed types.
+    /// Places gates in bottlenecks of the area that is still open, and numbers the zones behind them from 1 in the
+    /// order of placement. The key to a gate may lie behind a gate with a higher number. Returns the placed types.
     pub(crate) fn gates(&mut self) -> Vec<SpriteType> {
         let mut types: Vec<SpriteType> = furnishable(self.analysis, self.palette, Role::Gate);
         types.retain(|&stype| {

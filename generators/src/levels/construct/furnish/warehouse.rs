@@ -1,4 +1,4 @@
-//! Furnishing of levels with pushable objects. It also provides their solutions.
+//! Furnishing of levels with pushable objects, along with the solutions of these levels.
 
 use super::pulls::Pulls;
 use crate::levels::construct::builder::Builder;
@@ -54,8 +54,8 @@ impl Builder<'_> {
                     if job.fills && !job.stays { None } else { Some((job.partner, walkable)) };
             }
         }
-        // In reverse, the avatar comes from the first visit after the last push. If the plan has a door, which is
-        // closed again in reverse, it may come from any cell.
+        // In reverse, the avatar reaches the last push from the first visit. If the plan has a door, which is closed
+        // again in reverse, the avatar may come from any cell.
         pulls.avatar = if plan.door.is_some() { None } else { visits.first().copied() };
         self.scatter(plan, &sockets, &mut pulls);
         let depth = 3.0 + 7.0 * self.difficulty();
@@ -103,8 +103,8 @@ impl Builder<'_> {
         Some(visits)
     }
 
-    /// Draws a cell onto which an object is to be pushed. The cell has enough room on at least one side and is near the
-    /// other cells of this kind.
+    /// Draws a socket, which is a cell onto which an object is to be pushed. The cell has enough room on at least one
+    /// side, and is near the other sockets.
     fn choose_socket(
         &mut self,
         pulls: &Pulls,
@@ -161,7 +161,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Walks the avatar backwards among the loose objects, so that it drags some of them into its own way.
+    /// Walks the avatar backwards among the loose objects, so that it drags some of them into its own path.
     fn stray(&mut self, pulls: &mut Pulls) {
         let goal = pulls.avatar;
         let least = 3 + round(3.0 * self.difficulty(), &mut self.sampler);

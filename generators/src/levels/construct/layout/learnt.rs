@@ -19,7 +19,7 @@ const MOST: usize = 320;
 const RESTARTS: usize = 2;
 /// The maximum number of windows to examine per board.
 const WORK: usize = 1_500_000;
-/// The number of decisions per board that can be undone.
+/// The number of reversible decisions per board.
 const MEMORY: usize = 24;
 
 /// The classes of a window's cells. Classes 0 and 2 are open, and classes 1 and 3 are walls. Classes 2 and 3 are border
@@ -40,7 +40,8 @@ fn class(grid: Grid, cell: usize, wall: bool) -> u8 {
 }
 
 impl Patterns {
-    /// Adds the windows of a board and of its left-right mirror image, because walls mean the same in both.
+    /// Adds the windows of a board and of its left-right mirror image, because mirroring does not change a wall's
+    /// purpose.
     pub(crate) fn learn(&mut self, grid: Grid, wall: &[bool]) {
         for mirrored in [false, true] {
             for y in 0..(grid.rows + 1).saturating_sub(SIDE) {
@@ -56,12 +57,12 @@ impl Patterns {
         }
     }
 
-    /// Returns `true` if there is a structure to learn, which requires several different windows with inner walls.
+    /// Returns `true` if there is a structure to learn: several different windows with inner walls.
     pub(crate) fn has_structure(&self) -> bool {
         self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
     }
 
-    /// Computes which windows may overlap. Must be called after all boards have been learnt. Cost: the square of
+    /// Computes which windows may overlap. Must be called after all boards have been learnt. Cost: quadratic in
     /// [`MOST`].
     pub(crate) fn conclude(&mut self) {
         let mut windows: Vec<(u32, Window)> =
@@ -158,8 +159,8 @@ fn size(set: &[u64]) -> u32 {
 }
 
 impl<'a> Wave<'a> {
-    /// Creates a wave in which all windows are possible whose border cells match those of the board. Returns `None` if
-    /// this leaves a position without a window.
+    /// Creates a wave in which every window whose border cells match the board's is possible. Returns `None` if this
+    /// leaves a position without a window.
     fn new(model: &'a Model, grid: Grid) -> Option<Wave<'a>> {
         let places = Grid { columns: grid.columns + 1 - SIDE, rows: grid.rows + 1 - SIDE };
         let suits = |place: usize, window: &Window| {

@@ -1,4 +1,4 @@
-//! Mazes of depth-first corridors on every second cell, with some of the dead ends opened.
+//! Mazes whose corridors are dug depth-first on every second cell. Some of the dead ends are opened.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::Sampler;

@@ -52,8 +52,8 @@ impl Layouts {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// Digs corridors. The first cells dug do not connect floor cells that are already connected. A few more cells are
-    /// dug afterwards.
+    /// Digs corridors. At first, no cell is dug that would connect floor cells that are already connected. A few more
+    /// cells are dug afterwards.
     fn dig(&self, sampler: &mut Sampler) -> Vec<Tile> {
         let mut tiles = vec![Tile::Wall; self.grid.len()];
         let mut inner = self.inner();

@@ -47,7 +47,7 @@ pub struct LockLevel {
 
 impl LockConfig {
     /// Generates the level for a seed. Layouts are annealed until an exhaustive search shows that one meets the target.
-    /// Returns `None` if none does. Cost: about a millisecond per layout.
+    /// Returns `None` if no layout does. Cost: about a millisecond per layout.
     pub fn level(&self, rules: LockRules, seed: Seed) -> Option<LockLevel> {
         let mut sampler = seed.child("size", 0).sampler();
         let mut side = |(least, most): (usize, usize)| sampler.between(least, most.max(least));
@@ -89,7 +89,7 @@ impl LockConfig {
     }
 }
 
-/// The actions of the steps up, left, down and right.
+/// The actions for the steps up, left, down and right.
 const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
 /// Returns the numbers of items for a board of the given size.

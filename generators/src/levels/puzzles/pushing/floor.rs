@@ -35,7 +35,7 @@ impl FloorPlans<'_> {
         (0..self.grid.len()).filter(|&cell| !self.grid.on_border(cell)).collect()
     }
 
-    /// Returns the number of targets of a kind.
+    /// Returns the number of targets of the given kind.
     fn destinations(&self, kind: usize) -> usize {
         let has_targets = self.rules.targets.get(kind).is_some_and(Option::is_some);
         if has_targets { self.counts[kind] } else { 0 }
@@ -179,7 +179,7 @@ impl FloorPlans<'_> {
         self.is_fair(&next).then_some(next)
     }
 
-    /// Returns the number of pushes from a floor plan's farthest position.
+    /// Returns the number of pushes needed to solve a floor plan's farthest position.
     pub(crate) fn depth(&self, floor_plan: &FloorPlan) -> usize {
         let pushing = Pushing { floor_plan, rules: self.rules };
         let searched = pushing.by_pushes(self.most_positions);
@@ -192,8 +192,8 @@ impl FloorPlans<'_> {
         Pushing { floor_plan, rules: self.rules }.by_pushes(self.most_positions).len()
     }
 
-    /// Rates a floor plan by the number of pushes from its farthest position, with a penalty for halls and isolated
-    /// wall blocks.
+    /// Rates a floor plan by the number of pushes needed to solve its farthest position, with a penalty for halls and
+    /// isolated wall blocks.
     pub(crate) fn rate(&self, floor_plan: &FloorPlan) -> Evaluation {
         let depth = self.depth(floor_plan);
         let objective = (depth as f64 - self.tidiness_penalty(floor_plan)).max(0.0) / PERFECT;

@@ -1,4 +1,4 @@
-//! Floor plans for pushing. Walls and targets are sets of cells, on which the effect of a push is computed.
+//! Floor plans for pushing puzzles, and the effects of pushes. Walls and targets are stored as sets of cells.
 
 use super::rules::{Destination, KINDS, Rules};
 use crate::levels::grid::{Grid, WAYS};
@@ -74,7 +74,7 @@ pub(crate) struct Pushing<'a> {
 }
 
 impl Pushing<'_> {
-    /// Returns the change of a cell's index for each step in [`WAYS`].
+    /// Returns the change in a cell's index for each step in [`WAYS`].
     pub(crate) fn strides(&self) -> [isize; 4] {
         WAYS.map(|(x, y)| x as isize + y as isize * self.floor_plan.grid.columns as isize)
     }
@@ -85,7 +85,7 @@ impl Pushing<'_> {
         self.inside() & !(self.floor_plan.wall | position.taken() | barred(0) | barred(1))
     }
 
-    /// Returns the cells in which an object of a kind can come to rest.
+    /// Returns the cells in which an object of the given kind can come to rest.
     pub(crate) fn lies(&self, kind: usize, position: &Position) -> Cells {
         let barred = |of: usize| {
             let rests = match kind == of {
@@ -126,7 +126,8 @@ impl Pushing<'_> {
             // The remaining things and targets.
             let ends: Vec<(Cells, Cells)> = match destination {
                 Destination::Sink | Destination::Partner => vec![(0, targets)],
-                // Every choice of holes to fill, or all holes if there are no more holes than things.
+                // Choose the holes to fill in every possible way, or fill all holes if there are no more holes than
+                // things.
                 Destination::Hole => {
                     subsets(targets, count).into_iter().map(|filled| (0, targets & !filled)).collect()
                 }
@@ -154,7 +155,7 @@ impl Pushing<'_> {
         (0..KINDS).all(counted) && !self.rules.destinations.iter().enumerate().any(has_arrived)
     }
 
-    /// Returns `true` if there are fewer objects of a kind than at the start.
+    /// Returns `true` if there are fewer objects of the given kind than at the start.
     fn is_missing(&self, kind: usize, position: &Position) -> bool {
         (position.things[kind].count_ones() as usize) < self.floor_plan.counts[kind]
     }

@@ -29,7 +29,7 @@ pub(crate) struct Rules {
     pub(crate) kinds: Vec<SpriteType>,
     /// The destination of each kind.
     pub(crate) destinations: Vec<Destination>,
-    /// The type of the targets of each kind; `None` if objects are pushed onto other objects.
+    /// The target type for each kind of object; `None` if objects are pushed onto other objects.
     pub(crate) targets: Vec<Option<SpriteType>>,
     /// For each kind, `true` if the avatar can stand on its targets.
     pub(crate) walkable: [bool; KINDS],

@@ -28,7 +28,7 @@ base::with_defaults! {
         /// The minimum fraction of episodes won by a careful player that looks before every action.
         pub fairness: f64 = 0.4,
         /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
-        /// between two looks.
+        /// between two looks at the board.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of boards to draw per level.
         pub boards: u64 = 400,
@@ -45,7 +45,7 @@ const SILLS: f64 = 0.05;
 const ACTIONS_EACH: usize = 15;
 /// The minimum number of inner cells per pushed object, which limits the number of objects.
 const ROOM: usize = 8;
-/// The number of actions in the win for each additional action that the fuse allows.
+/// The number of actions in a win per spare action that the fuse allows.
 const SPARE: usize = 2;
 /// The minimum distance between strays and the avatar.
 const AWAY: usize = 4;

@@ -16,10 +16,10 @@ use engine::{Game, Level, SpriteType};
 /// The maximum number of positions to search per floor plan when creating its level.
 const MAX_POSITIONS: usize = 400_000;
 /// The maximum number of positions to search for the one that takes the avatar the most steps. Here, positions also
-/// differ by the avatar's cell. With more positions, an arbitrary one is used.
+/// differ by the avatar's cell. If there are more positions, an arbitrary one is used.
 const MAX_STEPS: usize = 250_000;
-/// The approximate total number of positions to search per level. If floor plans have many positions, fewer of them are
-/// rated.
+/// The approximate total number of positions to search per level. If floor plans have many positions, fewer floor plans
+/// are rated.
 const POSITIONS: usize = 1_200_000;
 /// The number of floor plans to request at a time. They are then rated one by one.
 const BATCH: usize = 8;
@@ -41,13 +41,13 @@ base::with_defaults! {
         /// The range of the level's distance from its solution, as a fraction of the longest distance. Distances at the
         /// lower end are more likely. If `None`, the range is derived from [`LevelConfig::difficulty`].
         pub way: Option<(f64, f64)> = None,
-        /// The minimum demand of a level. If it is set, floor plans are searched until one meets it, with more
-        /// positions per plan.
+        /// The minimum requirements for a level. If they are set, floor plans are searched until one meets them, and
+        /// more positions are examined per plan.
         pub target: Option<PuzzleTarget> = None,
     }
 }
 
-/// The minimum demand of a puzzle.
+/// The minimum requirements for a puzzle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PuzzleTarget {
     /// The minimum number of pushes in any win.
@@ -73,10 +73,10 @@ const RAISE: usize = 3;
 
 /// Levels for games that are won by pushing objects to their destinations (Sokoban and its relatives).
 ///
-/// Simulated annealing optimises the floor plan for the number of pushes from its farthest position. That number is
-/// exact, because all positions are searched backwards from all solved positions (Taylor and Parberry 2011, "Procedural
-/// generation of Sokoban levels"). Among the farthest positions, the one that takes the avatar the most steps becomes
-/// the level. Each level has been won in the game itself.
+/// Simulated annealing optimises the floor plan for the number of pushes that its farthest position requires. That
+/// number is exact, because all positions are searched backwards from all solved positions (Taylor and Parberry 2011,
+/// "Procedural generation of Sokoban levels"). Among the farthest positions, the one that takes the avatar the most
+/// steps becomes the level. Each level has been won in the game itself.
 ///
 /// Cost: about a tenth of a millisecond per 8×8 floor plan with three objects. A level takes at most about a second,
 /// because the number of positions to search is limited.

@@ -32,7 +32,7 @@ base::with_defaults! {
         /// The minimum fraction of episodes won by a careful player that looks before every action.
         pub fairness: f64 = 0.4,
         /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
-        /// between two looks.
+        /// between two looks at the board.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of yards to draw per level.
         pub yards: u64 = 2_000,
@@ -43,9 +43,9 @@ base::with_defaults! {
 const LEAST_SIDE: usize = 6;
 /// The number of inner cells on a board of typical size, which gets the configured number of carts.
 const USUAL: f64 = 80.0;
-/// The number of ticks of staying in place to which [`YardConfig::exposure`] refers.
+/// The waiting time, in ticks, to which [`YardConfig::exposure`] refers.
 const WAIT: usize = 10;
-/// The number of ticks in the fastest win for each spare tick.
+/// The number of ticks in the fastest win per spare tick.
 const DETOURS: usize = 6;
 /// The maximum number of carts. Prompts list the directions of at most that many sprites per type.
 const CARTS: usize = 8;

@@ -17,7 +17,7 @@ pub(super) struct Timetable {
 
 /// The value for an empty load.
 const EMPTY: usize = 0;
-/// The minimum fraction of carts that must still run apart from each other at the end.
+/// The minimum number of distinct cart states (cell and direction) at the end, as a fraction of the number of carts.
 const APART: f64 = 0.75;
 
 impl Timetable {
@@ -62,7 +62,7 @@ impl Timetable {
         self.is_busy.len() / self.cells
     }
 
-    /// Returns `true` if a cart is in a cell after a tick.
+    /// Returns `true` if a cart is in the given cell after the given tick.
     fn is_busy(&self, tick: usize, cell: usize) -> bool {
         self.is_busy[tick * self.cells + cell]
     }
