@@ -190,7 +190,7 @@ mod tests {
             Criterion::NotInstant,
             GAME,
             &[NEAR, hive],
-            Some("before 1.5 periods of `hive`, 30 ticks each"),
+            Some("before 1.5 periods of `hive` (30 ticks each)"),
         );
         let plain = "wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\nwA                                pw\nwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww\n";
         check(Criterion::NotInstant, GAME, &[NEAR, plain], Some("the nearest-goal player wins 100%"));

@@ -114,8 +114,10 @@ fn releases_are_signed_by_enough_keys() {
     // The same holds for an archive, whose signatures lie beside it.
     let said =
         text(&run(folder, &["export", "tiny", "--format", "archive", "--out", "tiny.tar.zst"], 0).stdout);
-    let copy =
-        said.lines().find(|line| line.contains("cp -r ")).and_then(|line| line.split_once("next to the archive:  "));
+    let copy = said
+        .lines()
+        .find(|line| line.contains("cp -r "))
+        .and_then(|line| line.split_once("next to the archive:  "));
     let copy = shlex::split(copy.unwrap().1).unwrap();
     assert_eq!(copy, ["cp", "-r", "tiny/papers/signatures", "tiny.signatures"]);
     says(

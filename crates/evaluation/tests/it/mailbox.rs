@@ -122,7 +122,7 @@ fn files_that_are_no_answers_are_set_aside() {
             })
         };
         let bad: [(&str, &[u8], &str); 4] = [
-            ("0000-0.answer.txt", b"ACTION: \xffright", "not UTF-8 (byte 8)"),
+            ("0000-0.answer.txt", b"ACTION: \xffright", "not valid UTF-8 (at byte 8)"),
             ("0000-0.answer.txt", &vec![b'a'; MAX_ANSWER + 1], "the limit for an answer is 256 KiB"),
             ("0001-0.answer.txt", b"ACTION: right", "the file answers 0001-0, but the open prompt is 0000-0"),
             ("0000-1.answer.txt", b"ACTION: right", "the file answers 0000-1, but the open prompt is 0000-0"),

@@ -139,7 +139,7 @@ mod tests {
         check(&rate(2, 4), None);
         check(&rate(0, 0), None);
         check(&rate(99, 4), Some("99 wins in 4 plays"));
-        check(&rate(0, u64::MAX), Some("more than 1000000"));
+        check(&rate(0, u64::MAX), Some("the limit is 1000000"));
         check(&Rate { interval: [0.0, 0.3], ..rate(0, 8) }, Some("give 0.0000 to 0.3244"));
         check(&Rate { interval: [f64::NAN, 0.0], ..rate(0, 8) }, Some("has the interval"));
         check(&Rate { mean_score: 1e300, ..rate(0, 8) }, Some("mean score"));
@@ -174,7 +174,7 @@ mod tests {
         check_ladder(&Ladder { ease: Some(0.9), ..ladder.clone() }, &["the difficulty is `medium`"]);
         check_ladder(
             &Ladder { ease: Some(1e300), ..ladder.clone() },
-            &["the ease is outside", "the difficulty"],
+            &["the ease is not between 0 and 1", "the difficulty"],
         );
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
         check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);

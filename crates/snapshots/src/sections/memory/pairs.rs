@@ -149,7 +149,7 @@ mod tests {
         let same = |_: &mut String, _: &mut Vec<String>| ();
         check(same, true, None);
         check(same, false, Some("the coin selects this"));
-        check(|text, _| text.clear(), true, Some("not a game"));
+        check(|text, _| text.clear(), true, Some("not a valid game"));
         check(|_, levels| levels[0] = "?".to_owned(), true, Some("lvl0.txt is not a level of this game"));
         check(|_, levels| levels.clear(), true, Some("the levels are not those"));
         check(

@@ -136,7 +136,7 @@ fn conflicting_histories_are_reported() {
     let all = [home.path().to_path_buf()];
     check(&places[2], &all, &["2027-02", "2027-01", "2026-12"], &["`2027-01` in"]);
     let chain = ask(&places[2], &all).expect("readable");
-    assert!(chain.problems[0].contains("`2027-01-b`") && chain.problems[0].contains("two histories"));
+    assert!(chain.problems[0].contains("`2027-01-b`") && chain.problems[0].contains("different histories"));
     assert!(chain.complete && chain.others == 1);
     // From the fork's point of view, the others form the second history.
     check(&places[3], &all, &["2027-01-b", "2026-12"], &["two histories"]);

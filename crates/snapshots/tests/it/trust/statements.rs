@@ -318,7 +318,7 @@ fn releases_describe_themselves() {
         |release| change(release, "CARD.json", |_| "{".to_owned()),
         &["CARD.json: not a valid release card: EOF"],
     );
-    complains(|release| change(release, "CARD.json", |_| "[]".to_owned()), &["not an object"]);
+    complains(|release| change(release, "CARD.json", |_| "[]".to_owned()), &["not a JSON object"]);
     let with = |key: &'static str, value: serde_json::Value, words: &str| {
         complains(
             |release| {
