@@ -30,9 +30,26 @@ use std::sync::LazyLock;
 const FIGURES: &str = include_str!("art/figures.txt");
 
 /// The figures of people.
-const PEOPLE: [&str; 12] = [
-    "person", "keeper", "customer", "knight", "thief", "king", "chef", "nurse", "dwarf", "clown", "diver",
+const PEOPLE: [&str; 19] = [
+    "person",
+    "keeper",
+    "customer",
+    "knight",
+    "thief",
+    "king",
+    "chef",
+    "nurse",
+    "dwarf",
+    "clown",
+    "diver",
     "mage",
+    "strongman",
+    "pedlar",
+    "foreman",
+    "smith",
+    "shopkeeper",
+    "pirate",
+    "porter",
 ];
 
 /// The figures that turn into the figure of an open door in the state `open`. Other sprites that can be open
