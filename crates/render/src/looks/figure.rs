@@ -54,7 +54,19 @@ const PEOPLE: [&str; 19] = [
 
 /// The figures that turn into the figure of an open door in the state `open`. Other sprites that can be open
 /// get a mark instead.
-const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"];
+const DOORS: [&str; 11] = [
+    "door",
+    "gate",
+    "grille",
+    "fence",
+    "house",
+    "opendoor",
+    "turnstile",
+    "shutter",
+    "trapdoor",
+    "boom",
+    "wardrobe",
+];
 
 /// The minimum length of a word that is recognised as the end of a longer word.
 const SHORTEST_END: usize = 4;
