@@ -30,14 +30,43 @@ use std::sync::LazyLock;
 const FIGURES: &str = include_str!("art/figures.txt");
 
 /// The figures of people.
-const PEOPLE: [&str; 12] = [
-    "person", "keeper", "customer", "knight", "thief", "king", "chef", "nurse", "dwarf", "clown", "diver",
+const PEOPLE: [&str; 19] = [
+    "person",
+    "keeper",
+    "customer",
+    "knight",
+    "thief",
+    "king",
+    "chef",
+    "nurse",
+    "dwarf",
+    "clown",
+    "diver",
     "mage",
+    "strongman",
+    "pedlar",
+    "foreman",
+    "smith",
+    "shopkeeper",
+    "pirate",
+    "porter",
 ];
 
 /// The figures that are replaced by an open door in the state `open`. Other sprites that can be open get a mark
 /// instead.
-const DOORS: [&str; 6] = ["door", "gate", "grille", "fence", "house", "opendoor"];
+const DOORS: [&str; 11] = [
+    "door",
+    "gate",
+    "grille",
+    "fence",
+    "house",
+    "opendoor",
+    "turnstile",
+    "shutter",
+    "trapdoor",
+    "boom",
+    "wardrobe",
+];
 
 /// The minimum length of a word that is recognised as the end of a longer word.
 const SHORTEST_END: usize = 4;

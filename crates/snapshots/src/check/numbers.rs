@@ -179,6 +179,9 @@ mod tests {
         check_ladder(&Ladder { difficulty: Difficulty::Unbeaten, ..ladder.clone() }, &["some player wins"]);
         check_ladder(&Ladder { rungs: vec![result(0)], ..ladder.clone() }, &["no player wins"]);
         let odd = PlayerResult { reward: Some(2.0), win_ticks: None, ..result(2) };
-        check_ladder(&Ladder { rungs: vec![odd], ..ladder }, &["mean number of ticks", "reward outside"]);
+        check_ladder(
+            &Ladder { rungs: vec![odd], ..ladder },
+            &["mean number of ticks", "a reward that is not between 0 and 1"],
+        );
     }
 }
