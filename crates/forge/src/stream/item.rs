@@ -7,9 +7,9 @@ use serde::{Serialize, Serializer};
 
 /// A verified level of a stream.
 ///
-/// In JSON, an item is an object with the keys `index`, `game`, `path` (the steps from the stream's seed to the level's
-/// seed), `difficulty`, `level` (the rows), `digest`, `witness` (one letter per action), `length`, `witness_seed`,
-/// `generation` and `semantics`.
+/// In JSON, an item is an object with the keys `index`, `game`, `rules` (the game's digest), `path` (the steps from the
+/// stream's seed to the level's seed), `difficulty`, `level` (the rows), `digest`, `witness` (one letter per action),
+/// `length`, `witness_seed`, `generation` and `semantics`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StreamItem {
     /// The index of the item in the stream.
@@ -45,9 +45,10 @@ impl StreamItem {
 impl Serialize for StreamItem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let text = self.level.to_string();
-        let mut item = serializer.serialize_struct("StreamItem", 11)?;
+        let mut item = serializer.serialize_struct("StreamItem", 12)?;
         item.serialize_field("index", &self.index)?;
         item.serialize_field("game", &self.game)?;
+        item.serialize_field("rules", &self.witness.game)?;
         item.serialize_field("path", self.path.steps())?;
         item.serialize_field("difficulty", &self.difficulty)?;
         item.serialize_field("level", &text.lines().collect::<Vec<_>>())?;

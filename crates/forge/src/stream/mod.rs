@@ -147,11 +147,9 @@ impl Stream {
         let mut order: Vec<&Source> = self.sources.iter().collect();
         path.seed().child("order", 0).sampler().shuffle(&mut order);
         let mut tally = Tally::default();
-        let mut made = order.into_iter().zip(0..).filter_map(|(source, rank)| {
+        let item = order.into_iter().zip(0..).find_map(|(source, rank)| {
             source.make(self, index, &path.child("game", rank), &mut tally, progress)
         });
-        let item = made.next();
-        drop(made);
         item.ok_or_else(|| StreamError::NoneAccepted {
             index,
             drawn: tally.levels_tried,

@@ -24,8 +24,8 @@ pub struct StreamGame {
 
 /// A game of a stream, with everything that its levels have in common.
 pub(super) struct Source {
-    pub(super) name: String,
-    pub(super) game: Game,
+    name: String,
+    game: Game,
     config: LevelConfig,
     similarity: LevelSimilarity,
 }
