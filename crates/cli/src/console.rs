@@ -57,6 +57,11 @@ impl Console {
         output.write(&mut io::stdout().lock(), text);
     }
 
+    /// Returns `true` if nothing more can be printed, such as after `arcade … | head`.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.output.lock().unwrap_or_else(PoisonError::into_inner).is_closed
+    }
+
     /// Records the result of a write to standard output by a library.
     pub(crate) fn printed(&self, result: io::Result<()>) {
         let result = result.and_then(|()| io::stdout().flush());

@@ -85,6 +85,7 @@ verbs! {
         Generate: generate,
         Studio: studio;
         more
+        Stream: stream,
         Design: design,
         Describe: describe,
         Render: render,

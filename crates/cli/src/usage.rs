@@ -56,7 +56,7 @@ fn verbs_in_short(command: &Command) -> String {
         let _ = writeln!(text, "{group}:");
         verbs.iter().for_each(|verb| row(&mut text, verb.get_name(), width, &first_clause(verb)));
     }
-    row(&mut text, "help", width, &format!("Explains a command. --all adds: {}", others.join(", ")));
+    row(&mut text, "help", width, &format!("Explains a command. --all: {}", others.join(", ")));
     text
 }
 

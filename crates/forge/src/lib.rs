@@ -16,6 +16,7 @@ mod progress;
 mod reported;
 pub mod review;
 mod search_loop;
+pub mod stream;
 pub mod survey;
 mod tally;
 pub mod well;

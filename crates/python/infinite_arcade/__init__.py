@@ -18,6 +18,7 @@ from .games import CorpusGame, Episode, Game, Level, State, corpus, load, seed_c
 from .judging import generate_games, generate_levels, validate
 from .planning import PLANNERS, Planner, play
 from .snapshots import Release, SnapshotGame, merge, mint, open_snapshot, verify
+from .streams import Stream, StreamItem, stream
 
 __all__ = [
     "ACTIONS",
@@ -34,6 +35,8 @@ __all__ = [
     "Release",
     "SnapshotGame",
     "State",
+    "Stream",
+    "StreamItem",
     "VgdlError",
     "__version__",
     "corpus",
@@ -46,6 +49,7 @@ __all__ = [
     "play",
     "seed_child",
     "seed_from_text",
+    "stream",
     "validate",
     "verify",
 ]

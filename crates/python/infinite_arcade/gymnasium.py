@@ -35,6 +35,9 @@ its actions.
 ``reset(options={"seed": "<64 hexadecimal digits>"})`` starts the same episode. If its level was selected, select the
 level again.
 
+``InfiniteArcade/Stream-v0`` plays a new verified level of the game in each episode, from a :class:`~infinite_arcade.Stream`.
+The level follows from the seed of the episode.
+
 Environments can be pickled and copied. A pickled environment consists of texts, seeds and actions, and is restored by
 playing the current episodes again.
 """
@@ -54,13 +57,21 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from ._arguments import did_you_mean, seed_text
+from ._arguments import Seed, did_you_mean, seed_text
 from ._lanes import Board, EpisodeLanes, Kind, Levels, Reward
-from .games import Game, State, corpus
+from .games import Game, State, corpus, game_of, seed_child, seed_from_text
+from .streams import Stream, StreamItem
 
-__all__ = ["GameEnv", "GameVectorEnv", "register"]
+__all__ = ["GameEnv", "GameVectorEnv", "StreamEnv", "register"]
 
 ENV_ID = "InfiniteArcade/Game-v0"
+STREAM_ID = "InfiniteArcade/Stream-v0"
+
+#: The number of positions of a stream from which episodes draw, if the stream has no end.
+_POSITIONS = 1 << 60
+
+#: The size of the boards of a game without own levels: the maximum size of its generated levels.
+_SIZE = (18, 11)
 
 class GameEnv(gymnasium.Env[Any, np.int64]):
     """A game as a Gymnasium environment.
@@ -208,6 +219,92 @@ class GameEnv(gymnasium.Env[Any, np.int64]):
             "score": native.scores[0],
             "outcome": native.outcomes[0],
         }
+
+
+class StreamEnv(GameEnv):
+    """A game as a Gymnasium environment, with a new verified level in each episode. ``info["level"]`` is the index of
+    the level in :attr:`stream`.
+    """
+
+    def __init__(
+        self,
+        game: str | Path | Game,
+        *,
+        stream_seed: Seed = "train",
+        difficulty: float | None = None,
+        start_level: int = 0,
+        num_levels: int = 0,
+        avoid: Sequence[str | Path] = (),
+        size: tuple[int, int] | None = None,
+        **arguments: Any,
+    ) -> None:
+        """Creates an environment.
+
+        Args:
+            game: a game, or an argument for :func:`infinite_arcade.load`.
+            stream_seed: the seed of the stream.
+            difficulty: the difficulty of the levels from 0 to 1; by default, every level draws its own.
+            start_level: the index of the first level that episodes draw.
+            num_levels: the number of levels from which episodes draw, or 0 for endless levels.
+            avoid: the folders or archives of releases whose levels are not played.
+            size: the number of columns and the number of rows of generated levels and of observed boards. By default,
+                levels have sizes similar to those of the game's own levels, and boards have the largest size.
+            arguments: further arguments of :class:`GameEnv`.
+
+        Raises:
+            VgdlError: if the game has problems.
+            ValueError: if an argument is invalid.
+        """
+        game = game_of(game)
+        #: The stream of the environment's levels.
+        self.stream = Stream(
+            stream_seed,
+            [game],
+            difficulty=difficulty,
+            size=size,
+            start_level=start_level,
+            num_levels=num_levels,
+            avoid=avoid,
+        )
+        if size is None:
+            sizes = [level.size for level in game.levels] or [_SIZE]
+            size = max(columns for columns, _ in sizes), max(rows for _, rows in sizes)
+        self._seed, self._episodes = "", 0
+        super().__init__(game if game.levels else self.stream[0].alone(), size=size, **arguments)
+
+    @property
+    def item(self) -> StreamItem:
+        """The item of the stream that the current episode plays, after the first :meth:`reset`."""
+        return self.stream[self._lanes.levels[0].number - self.stream.start_level]
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Starts an episode. In ``options``, ``level`` is the index of the episode's level in the stream, and ``seed``
+        is the seed of the episode itself.
+
+        Raises:
+            ValueError: if there is no such option, or the environment does not have the level.
+            ArcadeError: if the stream has no level at the drawn position.
+        """
+        options = _checked(options, ("level", "seed"))
+        gymnasium.Env.reset(self, seed=seed)
+        if seed is not None or not self._seed:
+            self._seed, self._episodes = seed_from_text(_text_of(self.np_random_seed)), 0
+        episode = seed_child(self._seed, "episode", self._episodes)
+        self._episodes += 1
+        drawn = int(seed_child(episode, "item", 0)[:15], 16) % (self.stream.num_levels or _POSITIONS)
+        position = self._position(operator.index(options["level"])) if "level" in options else drawn
+        arguments = {**self._lanes.arguments, "game": self.stream[position].alone(), "level": None}
+        self._lanes = EpisodeLanes(**arguments)
+        return super().reset(options={"seed": options.get("seed", episode)})
+
+    def _position(self, index: int) -> int:
+        first, number = self.stream.start_level, self.stream.num_levels
+        if index < first or number and index >= first + number:
+            known = f"{first} to {first + number - 1}" if number else f"{first} and above"
+            raise ValueError(f"the environment has the levels {known}, not {index}")
+        return index - first
 
 
 class GameVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
@@ -458,8 +555,8 @@ def _checked(options: dict[str, Any] | None, known: Sequence[str]) -> dict[str, 
 
 
 def register() -> None:
-    """Registers ``InfiniteArcade/Game-v0`` and the corpus games, such as ``InfiniteArcade/Hailglass-v0``. Does nothing
-    if they are already registered.
+    """Registers ``InfiniteArcade/Game-v0``, ``InfiniteArcade/Stream-v0`` and the corpus games, such as
+    ``InfiniteArcade/Hailglass-v0``. Does nothing if they are already registered.
     """
     ids: dict[str, dict[str, Any]] = {ENV_ID: {}}
     for name in corpus():
@@ -474,6 +571,8 @@ def register() -> None:
                 disable_env_checker=False,
                 kwargs=arguments,
             )
+    if STREAM_ID not in gymnasium.registry:
+        gymnasium.register(STREAM_ID, entry_point="infinite_arcade.gymnasium:StreamEnv")
 
 
 register()

@@ -19,3 +19,4 @@ mod planner;
 mod questions;
 mod state;
 mod status;
+mod stream;

@@ -26,6 +26,8 @@ mod _native {
     use crate::questions::{draw_questions, is_right_answer, question_kinds};
     #[pymodule_export]
     use crate::state::State;
+    #[pymodule_export]
+    use crate::stream::Stream;
 
     /// Adds the constants to the module.
     #[pymodule_init]

@@ -30,6 +30,7 @@ mod recipe_keys;
 mod robustness;
 mod search;
 mod shortcuts;
+mod streams;
 mod tidy;
 mod verdicts;
 mod words;

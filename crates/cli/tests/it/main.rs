@@ -25,6 +25,7 @@ mod served;
 #[path = "../../../evaluation/tests/it/server.rs"]
 mod server;
 mod shards;
+mod stream;
 mod studio;
 mod tracks;
 mod trust;

@@ -8,5 +8,6 @@ pub(crate) mod lsp;
 pub(crate) mod new;
 pub(crate) mod play;
 pub(crate) mod render;
+pub(crate) mod stream;
 pub(crate) mod studio;
 pub(crate) mod validate;

@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// The pages about subcommands that have no page with the same name, most relevant first.
-const VERBS: [(&str, &[&str]); 24] = [
+const VERBS: [(&str, &[&str]); 25] = [
     ("calibrate", &["calibrate", "scale"]),
     ("clean", &["command-line"]),
     ("completions", &["command-line"]),
@@ -74,6 +74,7 @@ const VERBS: [(&str, &[&str]); 24] = [
     ("release", &["first-month", "mint", "recipes"]),
     ("render", &["rendering"]),
     ("sign", &["trust", "first-month"]),
+    ("stream", &["train"]),
     ("study", &["calibrate", "timeline", "memory", "well"]),
     ("verify", &["snapshots", "trust"]),
     ("help", &["command-line"]),

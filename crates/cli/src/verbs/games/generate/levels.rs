@@ -76,7 +76,7 @@ pub(crate) struct Args {
 }
 
 /// Parses a board size such as `12x9`.
-fn size(text: &str) -> Result<(usize, usize), String> {
+pub(in crate::verbs::games) fn size(text: &str) -> Result<(usize, usize), String> {
     let sides = text.split_once(['x', 'X']);
     let sides = sides.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
     sides.ok_or_else(|| "expected columns and rows with an x between them, such as 12x9".to_owned())

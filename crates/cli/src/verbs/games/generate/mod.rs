@@ -3,6 +3,8 @@
 mod games;
 mod levels;
 
+pub(super) use levels::size;
+
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
 
@@ -30,7 +32,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
 }
 
 /// Returns formatted JSON, for people and programs.
-fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
+pub(super) fn pretty(value: &impl serde::Serialize) -> Result<Vec<u8>, Failure> {
     let mut text = serde_json::to_vec_pretty(value)
         .map_err(|error| Failure::environment(error, "the result cannot be written as JSON"))?;
     text.push(b'\n');
