@@ -28,3 +28,4 @@ pub use outline::{Entry, EntryKind, outline};
 pub use pages::{introduction, page, summary};
 pub use problems::{LevelRules, Problem, applied, level_problems, problems};
 pub use rename::{RenameError, renamable, rename, rename_in_level};
+pub use values::COLORS;

@@ -151,7 +151,7 @@ pub(crate) fn values(kind: Kind) -> &'static [&'static str] {
 }
 
 /// The colour names.
-const COLORS: [&str; 20] = [
+pub const COLORS: [&str; 20] = [
     "GREEN",
     "BLUE",
     "RED",

@@ -16,7 +16,7 @@ pub const EXAMPLE_GAME: &str = include_str!("example/game.vgdl");
 pub const EXAMPLE_LEVEL: &str = include_str!("example/lvl0.txt");
 
 /// The words whose parameters are listed in the manual for the rules.
-const DETAILED: [&str; 14] = [
+const DETAILED: [&str; 18] = [
     "Resource",
     "Missile",
     "RandomNPC",
@@ -28,7 +28,11 @@ const DETAILED: [&str; 14] = [
     "ShootAvatar",
     "killIfHasLess",
     "killIfOtherHasMore",
+    "changeResource",
+    "subtractHealthPoints",
     "transformTo",
+    "transformToAll",
+    "teleportToExit",
     "spawn",
     "SpriteCounter",
 ];
@@ -94,6 +98,7 @@ pub(crate) fn rules(brief: &Brief, idea: &Idea) -> String {
             ("classes", classes()),
             ("effects", words(EFFECTS.iter().copied())),
             ("terminations", words(TERMINATIONS.iter().copied())),
+            ("colours", editor::COLORS.join(", ")),
             ("details", details.join("\n").trim_end().to_owned()),
             ("example_game", EXAMPLE_GAME.to_owned()),
             ("example_level", EXAMPLE_LEVEL.to_owned()),
@@ -129,6 +134,10 @@ pub(crate) fn levels(brief: &Brief, criteria: &Criteria, idea: &Idea, rules: &st
             ("time_high", gates.time_limit.1.to_string()),
             ("open", percent(1.0 - gates.narrow)),
             ("dead_ticks", gates.dead_ticks.to_string()),
+            ("careless", percent(gates.careless_wins)),
+            ("sweep", gates.sweep.to_string()),
+            ("foes", percent(gates.foe_losses)),
+            ("drama", gates.drama.to_string()),
             ("needed", percent(gates.needed_share)),
             ("tier", tier.unwrap_or_default()),
             ("idea", told(idea)),

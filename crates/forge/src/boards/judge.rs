@@ -59,12 +59,13 @@ const CONSTRAINTS: f64 = 10.0;
 const SPARE: f64 = 0.25;
 
 /// The judge in a board search.
+#[derive(Clone)]
 pub(super) struct Judge<'a> {
     pub(super) analysis: &'a Analysis,
     pub(super) order: &'a BoardOrder,
     pub(super) budget: &'a BoardBudget,
     pub(super) variation: &'a BoardVariation<'a>,
-    pub(super) ablations: Ablations,
+    pub(super) ablations: &'a Ablations,
     /// The judges of the gates that can be applied to a single board.
     pub(super) panel: Option<Panel>,
     pub(super) seed: Seed,
@@ -148,8 +149,8 @@ impl Judge<'_> {
             self.ablations.matter(self.analysis, &needed, level, &win, self.budget.small_calls);
         calls += spent;
         let idle = matter.iter().filter(|matters| !**matters).count();
-        if idle > 0 {
-            return Judged::failed(9.0, 1.0 - idle as f64 / matter.len() as f64, calls);
+        if idle > self.order.idle {
+            return Judged::failed(9.0, 1.0 - (idle - self.order.idle) as f64 / matter.len() as f64, calls);
         }
         let others = events.firsts.iter().copied().filter(|line| !ordered.contains(line));
         let (others, spent) = self.ablations.needed(others, level, &win, self.budget.small_calls);

@@ -14,7 +14,7 @@ use validators::{Effort, Panel};
 const CHEAP: usize = 3;
 /// The maximum number of tidied boards to judge at the end.
 const TIDIED: usize = 12;
-/// The maximum number of boards in the final judging.
+/// The maximum number of boards in the final judging, besides the first board.
 const SCRUTINIZED: usize = 3;
 /// The maximum loss of quality from tidying.
 const TIDY_LOSS: f64 = 0.01;
@@ -56,8 +56,15 @@ pub(crate) fn search_boards(
     let ablations = Ablations::of(analysis, &order.mechanics);
     let panel = order.gates.as_ref().map(|criteria| Panel::new(criteria.only(ALONE), Effort::Sequential));
     let seed_of_game = seed.child("game", 0);
-    let judge =
-        Judge { analysis, order, budget, variation: &variation, ablations, panel, seed: seed_of_game };
+    let judge = Judge {
+        analysis,
+        order,
+        budget,
+        variation: &variation,
+        ablations: &ablations,
+        panel,
+        seed: seed_of_game,
+    };
     let config = AnnealingConfig {
         starts: budget.compositions.min(budget.evaluations) * CHEAP,
         chains: 1,
@@ -65,6 +72,9 @@ pub(crate) fn search_boards(
         patience: budget.evaluations * CHEAP,
         ..AnnealingConfig::of(budget.evaluations * CHEAP)
     };
+    let (calls, small_calls) = (budget.calls * budget.scrutiny, budget.small_calls * budget.scrutiny);
+    let strict_budget = BoardBudget { calls, small_calls, ..budget.clone() };
+    let strict = Judge { budget: &strict_budget, ..judge.clone() };
     let mut search = Annealing::new(&variation, config, seed.child("search", 0));
     let mut best = Best::default();
     while best.searched < budget.evaluations
@@ -74,15 +84,20 @@ pub(crate) fn search_boards(
         && !best.is_hopeless(budget)
     {
         let Some(level) = search.ask(1).pop() else { break };
-        let judged = judge.judge(&level, best.quality());
+        let mut judged = judge.judge(&level, best.quality());
+        // The first board must stand up to the final judging, so that the search never ends without a board.
+        if budget.scrutiny > 1 && best.boards.is_empty() && judged.won.is_some() {
+            let calls = judged.calls;
+            judged = strict.judge(&level, 0.0);
+            judged.calls += calls;
+        }
         let evaluation = judged.evaluation.clone();
         best.note(&level, judged);
         search.tell(vec![(level, evaluation)]);
     }
     best.tidy(&variation, &judge);
     if budget.scrutiny > 1 {
-        let (calls, small_calls) = (budget.calls * budget.scrutiny, budget.small_calls * budget.scrutiny);
-        best.scrutinize(&Judge { budget: &BoardBudget { calls, small_calls, ..budget.clone() }, ..judge });
+        best.scrutinize(&strict);
     }
     let feasibility = search.best().map_or(0.0, |(_, evaluation)| evaluation.feasibility);
     BoardSearch { feasibility, calls: best.calls, made: best.into_board() }
@@ -162,10 +177,11 @@ impl Best {
     }
 
     /// Judges the best board again, with a larger budget in calls. If the board fails, for example because its shortest
-    /// win turns out to be too short, the previous best board is judged instead.
+    /// win turns out to be too short, the previous best board is judged instead, and at last the first board.
     fn scrutinize(&mut self, judge: &Judge<'_>) {
-        let last = self.boards.len().saturating_sub(SCRUTINIZED);
-        self.boards.drain(..last);
+        if self.boards.len() > SCRUTINIZED {
+            self.boards.drain(1..self.boards.len() - SCRUTINIZED);
+        }
         while let Some((level, ..)) = self.boards.pop() {
             let judged = judge.judge(&level, 0.0);
             self.calls += judged.calls;

@@ -12,10 +12,13 @@ const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (4
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The mechanics that must all matter. Each mechanic is a list of interactions, as indices into
-    /// [`Description::interactions`](engine::Description). A mechanic matters if the win needs one of its interactions,
-    /// if wrong keys are fatal because of the mechanic, or if a clearly shorter win exists without the mechanic.
+    /// The mechanics that must matter, except [`BoardOrder::idle`] of them. Each mechanic is a list of interactions, as
+    /// indices into [`Description::interactions`](engine::Description). A mechanic matters if the win needs one of its
+    /// interactions, if wrong keys are fatal because of the mechanic, or if a clearly shorter win exists without the
+    /// mechanic.
     pub mechanics: Vec<Vec<usize>>,
+    /// The maximum number of mechanics that may not matter.
+    pub idle: usize,
     /// Earlier boards that the new board must not resemble.
     pub unlike: Vec<Level>,
     /// For each earlier win, the order of its first executions of interactions; see [`BoardMeasures::firsts`].
@@ -30,7 +33,15 @@ impl BoardOrder {
     /// Creates an order with the default contents and win length for the brief's slot.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
-        BoardOrder { brief, mechanics: Vec::new(), unlike: Vec::new(), known: Vec::new(), ticks, gates: None }
+        BoardOrder {
+            brief,
+            mechanics: Vec::new(),
+            idle: 0,
+            unlike: Vec::new(),
+            known: Vec::new(),
+            ticks,
+            gates: None,
+        }
     }
 }
 

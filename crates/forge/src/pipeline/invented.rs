@@ -7,7 +7,7 @@ use crate::games::FoundLevel;
 use base::{Seed, SeedPath};
 use engine::{Analysis, Game, SpriteType};
 use generators::GenerateError;
-use generators::boards::{BoardBrief, Idiom};
+use generators::boards::{BoardBrief, BoardVariation, Idiom};
 use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention};
 use validators::CheckedCriteria;
@@ -15,8 +15,11 @@ use validators::CheckedCriteria;
 /// The demand of a board, from 0 to 4, at difficulty 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand of a board at which every mechanic must matter.
+/// The minimum demand of a board at which mechanics must matter.
 const JOINT: u8 = 2;
+/// The number of mechanics that must matter on a board below the highest demand. At the highest demand, every mechanic
+/// must matter.
+const LEAST_JOINT: usize = 2;
 
 /// The demand of the boards in a quick look.
 const LOOK_DEMAND: u8 = 1;
@@ -204,18 +207,27 @@ struct PlaceBoards<'a> {
 
 impl PlaceBoards<'_> {
     /// Returns the types to omit from a candidate's board. Introductory levels omit the types of one mechanic, drawn at
-    /// random for each candidate.
+    /// random for each candidate, if boards can be composed without that mechanic.
     fn left_out(&self, candidate: &SeedPath) -> Vec<SpriteType> {
-        let optional: Vec<&Vec<String>> =
-            self.source.own_types.iter().filter(|own| !own.is_empty()).collect();
-        if self.demand > 0 || optional.is_empty() {
+        if self.demand > 0 {
+            return Vec::new();
+        }
+        let game = self.analysis.game();
+        let types = |names: &Vec<String>| -> Vec<SpriteType> {
+            game.sprite_types().filter(|&stype| names.iter().any(|name| name == game.name(stype))).collect()
+        };
+        let composes = |without: &Vec<SpriteType>| {
+            let brief = self.source.brief(&self.analysis, self.demand);
+            let brief = BoardBrief { without: without.clone(), ..brief };
+            BoardVariation::new(&self.analysis, &brief).is_ok()
+        };
+        let optional = self.source.own_types.iter().filter(|own| !own.is_empty()).map(types);
+        let optional: Vec<Vec<SpriteType>> = optional.filter(composes).collect();
+        if optional.is_empty() {
             return Vec::new();
         }
         let drawn = candidate.seed().child("left out", 0).sampler().below(optional.len());
-        let names = optional.get(drawn).map_or(&[][..], |own| own.as_slice());
-        let game = self.analysis.game();
-        let is_named = |stype: &SpriteType| names.iter().any(|name| name == game.name(*stype));
-        game.sprite_types().filter(is_named).collect()
+        optional.into_iter().nth(drawn).unwrap_or_default()
     }
 
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
@@ -224,8 +236,11 @@ impl PlaceBoards<'_> {
         let mechanics = if self.demand < JOINT { Vec::new() } else { self.source.mechanics.clone() };
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
         let order = BoardOrder::of(brief);
+        let acting = mechanics.iter().filter(|lines| !lines.is_empty()).count();
+        let idle = if self.demand < DEMANDS { acting.saturating_sub(LEAST_JOINT) } else { 0 };
         BoardOrder {
             mechanics,
+            idle,
             unlike,
             known: self.known(),
             ticks: self.ticks(order.ticks),

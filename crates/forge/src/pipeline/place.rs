@@ -6,6 +6,9 @@ use super::stage::{Refusal, walk};
 use crate::games::{Drawn, FoundLevel, Levels};
 use crate::tally::Tally;
 
+/// The number of extra candidates to count for a failed board search while the game has fewer than [`STAKE`] levels. If
+/// three searches fail, further ones rarely succeed.
+const EARLY_VAIN_BOARD: u32 = 1;
 /// The number of extra candidates to count for a failed win search.
 const VAIN_SEARCH: u32 = 1;
 /// The number of extra candidates to count for a failed search while the game has fewer than [`STAKE`] levels, so that
@@ -47,6 +50,10 @@ impl Place<'_> {
                 tally.spend(Tally::of_refused, |tally| self.judge_candidate(&*boards, candidate, tally));
             if found.is_some() {
                 return found;
+            }
+            let is_vain = !self.levels.source.mechanics().is_empty() && tally.calls == calls;
+            if is_vain && self.others.len() < STAKE {
+                left = left.saturating_sub(EARLY_VAIN_BOARD);
             }
             // A failed search for a win is expensive, so it counts as several candidates.
             if tally.calls - calls > criteria.budget / 2 {
