@@ -20,8 +20,8 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-CRITERIA = re.compile(r'"(well-formed|readable|not-idle|not-random|early-death|winnable|length|skill|rule-use|ablation|new-to-game|'
-                      r'progression|not-instant|tight|necessity|drama|no-dead-time|actors-matter|elements|choices)"')
+CRITERION_ROW = re.compile(r'^\s*\w+ = "([a-z-]+)"', re.M)
+CRITERIA = re.compile('"(%s)"' % "|".join(CRITERION_ROW.findall((ROOT / "validators/src/criterion.rs").read_text())))
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|r(#*)".*?"\1|b?"(?:[^"\\]|\\.)*"|\'(?:[^\'\\]|\\.)\'', re.S)
 
 

@@ -33,7 +33,6 @@ const SHOWN_EFFECTS: &[&str] = &[
     "killIfHasMore",
     "killIfHasLess",
     "killIfOtherHasMore",
-    "killIfOtherHasLess",
     "spawn",
     "spawnIfHasMore",
     "spawnIfHasLess",
