@@ -5,7 +5,7 @@ use crate::errors::{failed, invalid};
 use crate::game::{Game, Level};
 use crate::interrupt::interruptible;
 use base::Seed;
-use forge::stream::{StreamConfig, StreamError, StreamGame};
+use forge::stream::{StreamConfig, StreamGame};
 use pyo3::prelude::*;
 use snapshots::released::Released;
 use std::path::PathBuf;
