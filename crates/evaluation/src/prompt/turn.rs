@@ -64,6 +64,8 @@ impl View<'_> {
             self.settings.encodings;
         let offered = |action: &&Action| self.turn.actions.contains(action);
         let actions: Vec<String> = self.actions.iter().filter(offered).map(ToString::to_string).collect();
+        // Forecasts reveal rules.
+        let has_rules = self.settings.rules != Rules::None;
         json!({
             // No actions are offered after the end of an episode.
             "actions_now": (!actions.is_empty() && actions.len() < self.actions.len()).then_some(actions),
@@ -73,7 +75,7 @@ impl View<'_> {
             "stacks": if grid { encoding::stacks(now, legend) } else { Vec::new() },
             "grounding": if grounding { encoding::grounding(now, legend) } else { Vec::new() },
             "directions": if grounding { encoding::directions(now, legend) } else { Vec::new() },
-            "soon": if grounding { encoding::soon(now, legend) } else { Vec::new() },
+            "soon": if grounding && has_rules { encoding::soon(now, legend) } else { Vec::new() },
             "coordinates": if coordinates { encoding::coordinates(now, legend) } else { Vec::new() },
             "rotated": rotated.then(|| board(encoding::rotated(now, legend), spaced)),
             "json": json.then(|| encoding::json(now, legend)),

@@ -129,6 +129,20 @@ fn the_rules_know_the_limit_of_decisions() {
     assert!(rules(60).contains(ours) && !rules(60).contains(own), "{}", rules(60));
 }
 
+/// The rules state the steward's pace, so the prompt may foretell its next move. Without rules, it must not.
+#[test]
+fn only_prompts_with_rules_foretell() {
+    let subject = game("turnip-heist");
+    let walk = Walk::new(&subject, 0);
+    for (rules, foretold) in [(Rules::Described, true), (Rules::Vgdl, true), (Rules::None, false)] {
+        let prompter = prompter(&subject, &PromptSettings { rules, ..PromptSettings::default() });
+        let prompt = prompter.prompt(&walk.turn(), &[], &[]);
+        let text = &prompt.messages.last().unwrap().text;
+        assert_eq!(text.contains("\n## Soon\nsteward: can move in 2 ticks"), foretold, "{text}");
+        assert_eq!(text.contains("## Soon"), foretold, "{text}");
+    }
+}
+
 /// The last message states how the episode ended.
 #[test]
 fn the_last_message_tells_the_outcome() {
