@@ -139,7 +139,7 @@ fn conflicting_histories_are_reported() {
     assert!(chain.problems[0].contains("`2027-01-b`") && chain.problems[0].contains("different histories"));
     assert!(chain.complete && chain.others == 1);
     // From the fork's point of view, the others form the second history.
-    check(&places[3], &all, &["2027-01-b", "2026-12"], &["two histories"]);
+    check(&places[3], &all, &["2027-01-b", "2026-12"], &["different histories"]);
 }
 
 /// A release that follows a missing rival is reported.
