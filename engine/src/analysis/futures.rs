@@ -37,7 +37,7 @@ pub(super) struct PossibleFutures<'a> {
 pub(super) struct Start {
     /// The types that have sprites at the start.
     pub(super) existing: Vec<SpriteType>,
-    /// The types that existing sprites create in addition to those that all sprites of their types create.
+    /// The types that existing sprites create in addition to the types that all sprites of their types create.
     pub(super) making: Vec<SpriteType>,
     /// The scheduled timed effects.
     pub(super) scheduled: Vec<u16>,

@@ -39,19 +39,13 @@ pub struct Observation {
     pub countdowns: Vec<CountdownView>,
 }
 
-/// The observable properties of a countdown.
+/// A countdown with the name of its type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CountdownView {
     /// The name of the type.
     pub name: String,
-    /// The column and the row of the cell that contains the sprite's centre, or `None` for a timed effect.
-    pub cell: Option<(i32, i32)>,
-    /// The event at the end of the countdown.
-    pub event: Event,
-    /// The number of steps until the event, at least 1, or `None` if the event is random.
-    pub ticks: Option<i32>,
-    /// The number of sprites that the sprite can still create, or `None` for no limit.
-    pub left: Option<i32>,
+    /// The countdown.
+    pub countdown: Countdown,
 }
 
 /// The observable properties of a sprite that follows paths, or that can move and has an orientation.
@@ -223,13 +217,8 @@ impl Game {
         let resources = self.held_by_avatar(state);
         let (ticks, score, outcome) = ((state.world.tick() + 1) as u32, state.score(), state.world.outcome());
         let avatar = self.seen_avatar(state);
-        let view = |known: Countdown| CountdownView {
-            name: self.name(known.stype).to_owned(),
-            cell: known.cell,
-            event: known.event,
-            ticks: known.ticks,
-            left: known.left,
-        };
+        let view =
+            |countdown: Countdown| CountdownView { name: self.name(countdown.stype).to_owned(), countdown };
         let countdowns = self.countdowns(state).into_iter().take(MAX_SEEN).map(view).collect();
         Observation { ticks, score, outcome, columns, rows, cells, resources, avatar, movers, countdowns }
     }

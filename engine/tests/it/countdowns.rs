@@ -103,7 +103,8 @@ fn next_steps_are_foretold() {
         for (moves, name) in moves.iter_mut().zip(["wolf", "slug", "bear"]) {
             let seen = |of: &engine::Observation| of.movers.iter().find(|mover| mover.name == name).cloned();
             let (Some(old), Some(new)) = (seen(&before), seen(&after)) else { continue };
-            let foretold = before.countdowns.iter().find(|known| known.name == name);
+            let foretold =
+                before.countdowns.iter().find(|view| view.name == name).map(|view| &view.countdown);
             assert_eq!(foretold.is_some(), name != "bear");
             let moved = (new.column - old.column, new.row - old.row);
             let is_due = foretold.is_none_or(|known| known.event == Event::Moves && known.ticks == Some(1));

@@ -74,7 +74,7 @@ fn avoided_levels_are_not_drawn() {
     assert_ne!((&first.level, first.path.steps()), (&second.level, second.path.steps()));
 }
 
-/// Compares the win rates of players other than those that rank the levels.
+/// Compares the win rates of players that do not rank the levels.
 #[test]
 fn difficult_items_are_won_less_often() {
     let count = cases(80) as u64;

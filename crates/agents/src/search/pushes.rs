@@ -63,7 +63,7 @@ impl Need {
                 needed.push(pushes.get(cell as usize).copied().filter(|_| is_aligned).unwrap_or(0));
             }
         }
-        // Some sprites may remain. Leaving out those that need the most pushes keeps the estimate admissible.
+        // Some sprites may remain. The estimate is admissible because it leaves out the sprites that need the most pushes.
         if self.limit > 0 {
             needed.sort_unstable();
             needed.truncate(needed.len().saturating_sub(self.limit));

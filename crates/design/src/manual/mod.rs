@@ -134,6 +134,7 @@ pub(crate) fn levels(brief: &Brief, criteria: &Criteria, idea: &Idea, rules: &st
             ("time_high", gates.time_limit.1.to_string()),
             ("open", percent(1.0 - gates.narrow)),
             ("dead_ticks", gates.dead_ticks.to_string()),
+            ("slips", percent(gates.careless_slips)),
             ("careless", percent(gates.careless_wins)),
             ("sweep", gates.sweep.to_string()),
             ("foes", percent(gates.foe_losses)),

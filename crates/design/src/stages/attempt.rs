@@ -12,9 +12,9 @@ const TICKS: usize = 200;
 /// The maximum number of groups of equal consecutive actions to list.
 const MOST_GROUPS: usize = 60;
 
-/// Returns the best attempt at a level: the judges' shortest win or, if there is none, the best of the judges' episodes
-/// and one episode of a player that walks to the nearest goal. Wins rank first, then higher scores, and then longer
-/// episodes. Cost: one episode.
+/// Returns the best attempt at a level, which is the judges' shortest win if there is one. Otherwise, compares the
+/// judges' episodes and one episode of a player that walks to the nearest goal. Wins rank first, then higher scores, and
+/// then longer episodes. Cost: one episode.
 pub(super) fn best(game: &Game, level: &Level, report: &Report, seed: Seed) -> Episode {
     if let Some(win) = &report.witness {
         return win.clone();

@@ -40,7 +40,7 @@ pub struct ModelSettings {
     pub server: String,
     /// The server's name for the model.
     pub model: String,
-    /// The sampling settings for answers, including those that the provider requires. All requests must use
+    /// The sampling settings for answers, including settings that the provider requires. All requests must use
     /// exactly these settings.
     pub decoding: Decoding,
 }

@@ -83,8 +83,8 @@ fn ways(observation: &Observation, legend: &Legend, entry: &Entry) -> Option<Str
 /// are equal for all sprites of a type. Cost: O(c log c), where c is the number of countdowns.
 pub fn soon(observation: &Observation, legend: &Legend) -> Vec<String> {
     let line = |entry: &Entry, event: Event| {
-        let of_event = |known: &&CountdownView| known.name == entry.name && known.event == event;
-        let known = observation.countdowns.iter().filter(of_event);
+        let of_event = |view: &&CountdownView| view.name == entry.name && view.countdown.event == event;
+        let known = observation.countdowns.iter().filter(of_event).map(|view| &view.countdown);
         let mut timed: Vec<_> =
             known.filter_map(|known| Some((known.ticks?, known.left, known.cell))).collect();
         timed.sort_unstable();

@@ -1,4 +1,4 @@
-//! An episode's past turns, and the choice of those that a conversation still shows.
+//! An episode's past turns, and the choice of the turns that a conversation still shows.
 
 use crate::answer;
 use crate::tokens;

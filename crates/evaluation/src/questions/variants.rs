@@ -45,7 +45,7 @@ const CLASSES: [(&str, &[(&str, &str)]); 9] = [
 const MAX_SPRITES: usize = 8;
 
 /// Draws a rule. Returns a question about it, and variants of the game that differ in that rule, in random order. Rules
-/// about interactions are drawn from those that apply during the actions.
+/// about interactions are drawn from the interactions that apply during the actions.
 pub(super) fn variants(
     place: Place<'_>,
     actions: &[Action],

@@ -84,7 +84,7 @@ impl World {
         &self.overrides[usize::from(sprite.overrides)]
     }
 
-    /// Returns the number of overrides: one per type, plus those that sprites own.
+    /// Returns the number of overrides: one per type, plus the overrides that sprites own.
     pub(crate) fn overrides_count(&self) -> usize {
         self.overrides.len()
     }

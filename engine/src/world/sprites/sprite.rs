@@ -48,7 +48,7 @@ pub(crate) mod flag {
     pub(crate) const MULTI_CELL: u32 = RIGHT | BELOW | BIG;
     /// The cooldown never delays the sprite, so the tick of the sprite's last move does not matter.
     pub(crate) const NO_COOLDOWN: u32 = 32_768;
-    /// Values other than those that change with movement have changed in the hash contribution.
+    /// In the hash contribution, a value has changed that movement does not change.
     pub(crate) const CHANGED: u32 = 65_536;
     /// The sprite is in `World::resized`, because it had a different size at the start of its update.
     pub(crate) const RESIZED: u32 = 262_144;

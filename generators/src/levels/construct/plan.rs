@@ -78,7 +78,7 @@ pub(crate) fn wishes_like(
             wishes.push(Wish { stype, role, count });
         }
     }
-    // The keys added here come in addition to those that locks need.
+    // The keys that locks need are added elsewhere.
     for stype in furnishable(analysis, palette, Role::Key) {
         wishes.push(Wish { stype, role: Role::Key, count: target.counts[stype.index()].0 });
     }

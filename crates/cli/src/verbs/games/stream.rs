@@ -167,7 +167,7 @@ impl Items<'_> {
     fn make(&mut self, stream: &Stream) -> Result<u64, Failure> {
         let Args { from, count, .. } = *self.args;
         let hint = match self.draft {
-            Some(_) => "interrupted; nothing was written",
+            Some(_) => "interrupted; the output folder was not created, and the same command starts over",
             None => {
                 "interrupted; to continue, add 1 to the index of the last complete line, and pass it with --from"
             }

@@ -56,7 +56,7 @@ impl Provider {
         }
     }
 
-    /// Returns the sampling settings to send: the requested ones, and those that the provider requires.
+    /// Returns the sampling settings to send: the requested settings, and the settings that the provider requires.
     ///
     /// # Errors
     /// Returns an error if the request uses a setting that the provider does not support, or an out-of-range

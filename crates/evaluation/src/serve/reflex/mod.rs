@@ -145,7 +145,7 @@ impl Reflex<'_> {
         Some(1 + near)
     }
 
-    /// Returns the use key if a target is in the line of fire. If there is none, returns a turn towards a
+    /// Returns the use key if a target is in the line of fire. Otherwise, returns a turn towards a
     /// target in a different direction, if any.
     fn fire(&self) -> Option<Action> {
         let shot = self.beliefs.shot.as_ref()?;

@@ -97,7 +97,7 @@ impl<'a> Search<'a> {
         deviating.min_by_key(|(number, at, _)| (*number, *at)).map(|(_, at, deviation)| (at, deviation))
     }
 
-    /// Returns the best changed guess among those that explain an episode better, if its total quality is also better.
+    /// Returns the best of the changed guesses that explain an episode better, if its total quality is also better.
     fn improve(&mut self, guess: &Guess, episode: usize, deviation: &Deviation<'_>) -> Option<Guess> {
         let level = self.task.recorded[episode].level;
         let columns = self.task.masked.levels[level].level.columns() as u32;
