@@ -9,6 +9,8 @@ use engine::{Analysis, SpriteType};
 
 /// The maximum number of kinds of pieces per board.
 const MAX_KINDS: usize = 8;
+/// The maximum number of givers to place because an interaction requires their resource.
+const MOST_GIVERS: usize = 12;
 
 /// A kind of piece.
 #[derive(Clone, Debug)]
@@ -199,6 +201,10 @@ fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (
         Idiom::Thing => (1, 2 + demand / 2),
         Idiom::Heavy => (1 + demand.min(1), 2 + demand / 2),
         Idiom::Spot if is_aim && !is_target => (2 + demand, 4 + demand + demand / 2),
+        // A single target would make the level too short.
+        Idiom::Heavy | Idiom::Spot | Idiom::Patrol | Idiom::Hunter | Idiom::Stray if is_aim => {
+            (1 + demand.min(1), 2 + demand / 2)
+        }
         Idiom::Spot => (1, 2 + demand / 2),
         Idiom::Patrol => (1, 1 + demand.div_ceil(2)),
         Idiom::Hunter => (1, 1 + demand / 2),
@@ -209,6 +215,14 @@ fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (
         low = low.max(requirement.at_least as usize);
         let most = requirement.at_most.map_or(usize::MAX, |most| most as usize);
         (low, high) = (low.min(most), high.min(most));
+    }
+    for resource in analysis.resources().iter().filter(|resource| resource.obtainable) {
+        if let [(giver, amount)] = resource.givers[..]
+            && giver == stype
+        {
+            low =
+                low.max((resource.needed.max(0) as usize).div_ceil(amount.max(1) as usize).min(MOST_GIVERS));
+        }
     }
     for goal in analysis.goals().iter().filter(|goal| goal.win && goal.condition.types().contains(&stype)) {
         if let Condition::AtMost(types, limit) = &goal.condition {

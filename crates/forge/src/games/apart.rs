@@ -13,8 +13,8 @@ const DRAWS: u64 = 12;
 /// The number of attempts at a game after which a different mechanic is requested for the draws.
 const PATIENCE: u32 = 6;
 /// The number of attempts at a game after which a different danger and a different ending are requested for the draws.
-/// With a lower number, the dangers and endings that pass most easily would occur in most games.
-const LONG_PATIENCE: u32 = 60;
+/// Some dangers and endings hardly ever pass in combination, so a game must not keep them for long.
+const LONG_PATIENCE: u32 = 12;
 /// The number of turns by which the requested parts advance each time. It exceeds the number of games in a month.
 const STRIDE: usize = 31;
 

@@ -2,7 +2,7 @@
 
 use super::goal::Condition;
 use crate::analysis::Analysis;
-use crate::analysis::interactions::encounter::{EffectSummary, Encounter};
+use crate::analysis::interactions::encounter::{EffectSummary, Encounter, Side};
 use crate::analysis::interactions::lock::{Fate, Key, Sink};
 use crate::analysis::types::role::Role;
 use crate::rules::SpriteType;
@@ -121,12 +121,15 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
     if wants_more {
         for &wanted in condition.types() {
             let Some(encounter) = makers[wanted.index()] else { continue };
-            for written in [Some(encounter.first), encounter.second].into_iter().flatten() {
+            let sides = [(Some(encounter.first), Side::First), (encounter.second, Side::Second)];
+            for (written, side) in sides.into_iter().filter_map(|(written, side)| Some((written?, side))) {
                 let tree = &analysis.game.0.types[written.index()].tree;
                 let placed = |stype: &&SpriteType| {
                     !analysis.facts(**stype).symbols.is_empty() && analysis.role(**stype) != Role::Avatar
                 };
-                list.extend(tree.iter().find(placed).map(|&stype| single(stype, 1)));
+                let is_spent = encounter.ends(side) && tree.len() == 1 && !is_created(analysis, written);
+                let least = if is_spent { missing(analysis, condition) } else { 1 };
+                list.extend(tree.iter().find(placed).map(|&stype| single(stype, least)));
             }
         }
         return list;
@@ -141,6 +144,24 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
         list.extend(sink.map(|sink| single(sink.partner, 1)));
     }
     list
+}
+
+/// Returns `true` if sprites of the type can appear after the start.
+fn is_created(analysis: &Analysis, stype: SpriteType) -> bool {
+    let creates = |effect: &EffectSummary| matches!(effect, EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) | EffectSummary::Make(to) if *to == stype);
+    analysis.encounters.iter().any(|met| met.does(creates))
+        || analysis.facts.iter().any(|facts| facts.makes.contains(&stype))
+}
+
+/// Returns the number of sprites that a win must create for a condition: 1 if levels can place some of them, or if
+/// several types count.
+fn missing(analysis: &Analysis, condition: &Condition) -> u32 {
+    match condition {
+        Condition::AtLeast(types, limit) | Condition::Exactly(types, limit) if matches!(types[..], [wanted] if analysis.facts(wanted).symbols.is_empty()) => {
+            count(*limit).max(1)
+        }
+        _ => 1,
+    }
 }
 
 /// Returns the requirements that give a level enough keys for one lock of each type.

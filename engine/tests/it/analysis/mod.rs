@@ -90,6 +90,29 @@ fn locks_know_their_keys() {
     assert_eq!(keys.map(|keys| (keys.types.clone(), keys.at_least)), Some((vec![coin], 2)));
 }
 
+/// A saved calf is one calf fewer. The bell can ring any number of times.
+#[test]
+fn a_win_that_turns_three_sprites_requires_three() {
+    let least = |mapping: &str, spawned: &str| {
+        let sprites = "calf > Passive\npen > Immovable\nbell > Immovable\nsaved > Immovable\necho > Flicker\navatar > MovingAvatar";
+        let rules = format!("calf pen > transformTo stype=saved\nbell avatar > spawn stype={spawned}");
+        let ends =
+            "SpriteCounterMore stype=saved limit=3 win=True\nSpriteCounterMore stype=echo limit=2 win=True";
+        let analysis = Analysis::of(&game(sprites, mapping, &rules, ends));
+        let least = |name: &str| {
+            let of_win = |r: &&Requirement| {
+                matches!(r.reason, Reason::WinMethod(_)) && r.types == [named(&analysis, name)]
+            };
+            analysis.requirements().iter().filter(of_win).map(|r| r.at_least).max()
+        };
+        ["calf", "pen", "bell"].map(least)
+    };
+    let mapping = "c > calf\np > pen\nb > bell";
+    assert_eq!(least(mapping, "echo"), [Some(3), Some(1), Some(1)]);
+    assert_eq!(least(mapping, "calf")[0], Some(1), "another rule creates calves");
+    assert_eq!(least(&format!("{mapping}\ns > saved"), "echo")[0], Some(1), "levels can place saved calves");
+}
+
 #[test]
 fn goals_have_a_sign() {
     let analysis = vault();
