@@ -61,7 +61,7 @@ kinds! {
 }
 
 impl Kind {
-    /// Draws a word for the hero's task, for use in a title.
+    /// Draws a word for the avatar's task, for use in a title.
     pub(crate) fn title_word(self, sampler: &mut Sampler) -> &'static str {
         let title_words: Vec<&'static str> = self.title_words().split(' ').collect();
         title_words[sampler.below(title_words.len())]

@@ -10,14 +10,14 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// The number of port partitions to draw per choice of mechanics.
+/// The number of partitions of the ports (the mechanics' open roles) to draw per choice of mechanics.
 const PARTITIONS: usize = 24;
 /// The maximum number of choices of mechanics per draw.
 const CHOICES: u64 = 400;
-/// The maximum number of ports filled by one type.
+/// The maximum number of ports (open roles of mechanics) that one sprite type fills.
 const MOST_PORTS: usize = 3;
-/// The number of sound draws to compare. The draw with the hardest choices is preferred and, among equals, the one with
-/// the least-used couplings.
+/// The number of sound draws to compare. The draw with the hardest choices for the player is preferred. Among equals,
+/// the draw whose merged pairs of ports were used least is preferred.
 const PROPOSALS: usize = 6;
 /// The number added to the use count of each mechanic, so that the first few uses hardly change the weights.
 const MECHANICS: u64 = 4;
@@ -39,8 +39,8 @@ impl Default for InventionConfig {
     }
 }
 
-/// Parts that draws should contain; see [`Census::lead`]. If no sound draw contains all of them, the mechanic is
-/// dropped first, and then the ending.
+/// The mechanics and the ending that draws should contain, chosen by [`Census::lead`]. If no sound draw contains all of
+/// them, the mechanic is dropped first, and then the ending.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lead {
     /// The name of a mechanic.
@@ -51,17 +51,16 @@ pub struct Lead {
     pub ending: Option<&'static str>,
 }
 
-/// The number of games in which each mechanic, ending and coupling was used.
+/// The number of games in which each mechanic, each ending and each coupling (merged pair of ports) was used.
 ///
-/// Draws prefer the least-used mechanics, endings and couplings, so that over many months each of them occurs about
-/// equally often.
+/// Draws prefer the least-used entries, so that over many months each of them occurs about equally often.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     uses: BTreeMap<String, u32>,
 }
 
 impl Census {
-    /// Creates a census from the given counts per pattern.
+    /// Creates a census from the given use counts, by pattern (such as `mechanic/lock`).
     pub fn of(uses: &BTreeMap<String, u32>) -> Census {
         Census { uses: uses.clone() }
     }
@@ -91,9 +90,9 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the parts that a draw should contain: the danger and the ending for `turn`, and the mechanic for
-    /// `mechanic_turn`. Parts take turns from least to most used, and the seed breaks ties. Thus, games that are drawn
-    /// independently differ if their turns differ.
+    /// Returns the mechanics and the ending that a draw should contain: the danger and the ending for `turn`, and the
+    /// mechanic for `mechanic_turn`. They take turns from least to most used, and the seed breaks ties. Thus, games
+    /// that are drawn independently differ if their turns differ.
     pub fn lead(&self, seed: Seed, turn: usize, mechanic_turn: usize) -> Lead {
         let next = |(kind, part): (&str, u64), turn: usize, is_part: fn(&Mechanic) -> bool| {
             let parts = Mechanic::all().iter().filter(|mechanic| is_part(mechanic));
@@ -115,7 +114,8 @@ impl Census {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// Returns the total use count of an invention's couplings. A lower total makes an invention look newer.
+    /// Returns the total use count of an invention's couplings, which are its merged pairs of ports. A lower total
+    /// makes an invention look newer.
     fn familiarity(&self, drawn: &Invention) -> u32 {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
@@ -191,8 +191,8 @@ impl Invention {
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let any_mechanic = Lead { mechanic: None, ..config.lead };
         let danger_only = Lead { ending: None, ..any_mechanic };
-        // All draws may be unsound if the requested parts do not fit any other part, or if the census favours mechanics
-        // that do not fit together.
+        // All draws may be unsound if the requested mechanics do not fit any others, or if the use counts favour
+        // mechanics that do not fit together.
         let empty = Census::default();
         let tries = [
             (config.lead, census, "choice"),

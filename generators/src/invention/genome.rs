@@ -16,7 +16,7 @@ use itertools::Itertools;
 /// An invented game as a list of choices.
 #[derive(Clone, Debug)]
 pub struct Invention {
-    /// The mechanics. The last mechanic is the ending.
+    /// The mechanics. The last one is the ending, which states how the game is won.
     pub(super) mechanics: Vec<&'static Mechanic>,
     /// The type of each port, in the order of [`ports`].
     pub(super) partition: Vec<u8>,
@@ -36,7 +36,7 @@ pub struct Invented {
     /// For each mechanic except the ending, the indices of its interactions. The list is empty if the mechanic only
     /// defines a motion or a class.
     pub mechanics: Vec<Vec<usize>>,
-    /// The idiom of each placeable type, by name.
+    /// The kind of position ([`Idiom`]) that suits each placeable type, by type name.
     pub idioms: Vec<(String, Idiom)>,
     /// For each mechanic except the ending, the types that no other mechanic uses. Without these types, a board lacks
     /// the mechanic.
@@ -91,7 +91,7 @@ impl Invention {
         self.mechanics.iter().map(|mechanic| mechanic.name.as_str())
     }
 
-    /// Returns the merged pairs of ports, such as `feed.food+lock.key`, sorted by name.
+    /// Returns the couplings, which are the merged pairs of ports, such as `feed.food+lock.key`, sorted by name.
     pub fn couplings(&self) -> Vec<String> {
         let name = |((mechanic, port), _): &((usize, usize), _)| {
             let mechanic = self.mechanics[*mechanic];

@@ -206,7 +206,7 @@ impl Mechanic {
         self.ports.iter().any(|port| port.tags.contains(&Tag::Presses))
     }
 
-    /// Returns `true` if the mechanic requires its own avatar.
+    /// Returns `true` if the mechanic requires its own avatar class.
     pub(crate) fn has_hero(&self) -> bool {
         self.hero.is_some() || self.heroes.is_some()
     }

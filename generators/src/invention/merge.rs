@@ -54,7 +54,7 @@ impl Merged {
         self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
     }
 
-    /// Returns the idiom for placing the type on boards, as far as the type's ports determine it.
+    /// Returns the kind of position that suits the type on boards, as far as the type's ports determine it.
     pub(crate) fn idiom(&self) -> Idiom {
         let is = |words: &[&str]| self.predicates().words().any(|word| words.contains(&word));
         match self.body {

@@ -123,7 +123,7 @@ fn has_honest_goal(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Returns `true` if the ports of a type make opposed demands on the player, so that meeting one demand has a price.
+/// Returns `true` if the type's uses are opposed, so that using the type for one purpose has a price.
 pub(crate) fn is_opposed(merged: &Merged) -> bool {
     let ports = &merged.ports;
     let across = |one: Tag, other: Tag| {
@@ -168,8 +168,8 @@ pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usiz
     (12 * types.iter().map(score).sum::<usize>() / mechanics.len().max(1)).min(ENOUGH)
 }
 
-/// Returns `true` if the player can influence a mover in a way other than avoiding it. The player must be able to lead
-/// a mover that has to be brought to a place.
+/// Returns `true` if the player can influence a mover in a way other than avoiding it. If a mover has to be brought to
+/// a place, the player must be able to guide it there.
 fn is_influenced(merged: &Merged) -> bool {
     let is_affected = [Tag::Removed, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag));
     merged.body != Body::Mover || merged.has(Tag::Led) || (is_affected && !merged.has(Tag::Brought))

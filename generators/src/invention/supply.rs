@@ -24,7 +24,8 @@ struct Stratum {
 }
 
 impl InventionSupply {
-    /// Estimates the supply from `samples` choices for each number of mechanics. Cost: about 2 milliseconds per choice.
+    /// Estimates the number of rule sets from `samples` choices for each number of mechanics. Cost: about 2
+    /// milliseconds per choice.
     pub fn estimate(config: &InventionConfig, samples: u64, seed: Seed) -> InventionSupply {
         let [mechanics, endings] = [false, true].map(|are| Mechanic::endings(are).count() as f64);
         let stratum = |count: usize| {

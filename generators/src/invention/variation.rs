@@ -35,7 +35,8 @@ pub struct InventionVariation {
 }
 
 impl InventionVariation {
-    /// Creates a variation that prefers the mechanics, endings and couplings with the lowest counts in the census.
+    /// Creates a variation that prefers the mechanics, endings and merged pairs of ports with the lowest use counts in
+    /// the census.
     pub fn new(config: InventionConfig, census: Census) -> InventionVariation {
         InventionVariation { config, census }
     }

@@ -27,7 +27,7 @@ pub(super) use nouns::Noun;
 use nouns::{Place, Words};
 use std::collections::BTreeMap;
 
-/// The colours available to heroes.
+/// The colours available to avatars.
 const HEROES: [&str; 2] = ["GREEN", "LIGHTGREEN"];
 
 /// A game's texts.
@@ -323,7 +323,7 @@ fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<Strin
     said
 }
 
-/// Draws a title from the two types that fill the most ports, the hero and the setting.
+/// Draws a title from the two types that fill the most ports, the avatar's noun and the setting.
 fn title(types: &[Merged], nouns: &Nouns, place: &str, sampler: &mut Sampler) -> Result<String, String> {
     let joint = |(_, merged): &(usize, &Merged)| std::cmp::Reverse(merged.ports.len());
     let things: Vec<&String> = types

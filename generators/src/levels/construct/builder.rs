@@ -1,4 +1,4 @@
-//! The tools for furnishing a board: placing sprites at sensible positions.
+//! The tools for filling a board: placing sprites at sensible positions.
 
 use super::board::Board;
 use super::plan::{self, Wish};

@@ -1,4 +1,4 @@
-//! Furnishing of levels that the avatar walks through, with exits, keys, goods and dangers.
+//! Placement of sprites on boards that the avatar walks through, with exits, keys, goods and dangers.
 
 use crate::levels::construct::builder::{Builder, back};
 use crate::levels::construct::plan;
@@ -8,7 +8,7 @@ use engine::analysis::{Key, Motion, Role};
 use engine::{Direction, SpriteType};
 
 impl Builder<'_> {
-    /// Furnishes a board that contains only walls.
+    /// Places the sprites on a board that contains only walls.
     pub(crate) fn adventure(&mut self) {
         let start = self.choose_start();
         self.put_avatar(start);
@@ -160,7 +160,7 @@ impl Builder<'_> {
                 }
             }
             Role::Boulder => u32::from(own_kind > 0),
-            // Place wards close together, so that there is room for the things that threaten them.
+            // Place protected sprites close together, so that there is room for the things that threaten them.
             Role::Ward => 1 + 12 / (1 + own_kind),
             Role::Pushable | Role::Socket if walls == 0 && from_start > 1 => own_kind,
             Role::Pushable | Role::Socket => 0,
@@ -406,8 +406,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places refills for a resource that the ground drains. The refills are dense enough that no path between two of
-    /// them is longer than the supply lasts.
+    /// Places refills for a resource that the ground drains. The refills are dense enough that the avatar never runs
+    /// out of the resource on a path between two of them.
     fn fuel(&mut self) {
         let Some(start) = self.analysis.start_avatar() else { return };
         for resource in self.analysis.resources() {

@@ -1,5 +1,5 @@
-//! Furnishing of crossings. The avatar starts at the bottom, its goal is at the top, and traffic runs between them in
-//! lanes from edge to edge.
+//! Placement of sprites for crossings. The avatar starts at the bottom, its goal is at the top, and traffic runs
+//! between them in lanes from edge to edge.
 
 use crate::levels::construct::builder::{Builder, way};
 use crate::levels::construct::plan;
@@ -86,7 +86,7 @@ impl Builder<'_> {
         (0..grid.len()).map(wall).collect()
     }
 
-    /// Furnishes a crossing's rows.
+    /// Fills the rows of a crossing with sprites.
     pub(crate) fn crossing(&mut self, rows: &[Row], traffic: &Traffic) {
         let grid = self.board.grid;
         let verges: Vec<usize> = (0..grid.rows).filter(|&row| rows[row] == Row::Verge).collect();

@@ -1,5 +1,5 @@
-//! Yards that meet a target. The player carries parcels past carts whose course must be predicted, with little time to
-//! spare.
+//! Yards, which are puzzles about carrying parcels, generated to meet a target. The player carries parcels past carts
+//! whose paths must be predicted, with little time to spare.
 
 mod timetable;
 mod yard;
@@ -14,7 +14,7 @@ use timetable::{Errands, Timetable};
 use yard::{Furniture, Sign, Yard};
 
 base::with_defaults! {
-    /// The configuration for yards.
+    /// The configuration for yards, in which the avatar carries parcels past moving carts.
     #[derive(Clone, Debug, PartialEq)]
     pub struct YardConfig {
         /// The minimum and maximum number of columns.
@@ -25,7 +25,8 @@ base::with_defaults! {
         pub decisions: (usize, usize) = (50, 120),
         /// The number of carts on a board of typical size.
         pub carts: usize = 4,
-        /// The minimum and maximum number of strays. A level gets the largest number of strays that keeps it fair.
+        /// The minimum and maximum number of wandering deadly sprites. A level gets the largest number that keeps it
+        /// fair.
         pub strays: (usize, usize) = (4, 10),
         /// The minimum fraction of the win's ticks from which staying in place for ten ticks would be fatal.
         pub exposure: f64 = 0.2,
@@ -55,17 +56,18 @@ const PARCELS: usize = 6;
 const PLAYS: usize = 40;
 /// The number of episodes played by the careful player per measured commitment.
 const MEASURED: usize = 200;
-/// The number of attempts to furnish each layout of tracks.
+/// The number of attempts to place sprites on each layout of tracks.
 const FURNISHED: usize = 4;
 /// The maximum length of a fastest win in ticks, as a multiple of the number of steps that it would take without carts.
 const DELAY: f64 = 1.5;
 
-/// A yard in the characters of [`YardRules::game`], with a winning sequence of actions.
+/// A yard (a puzzle about carrying parcels) in the characters of [`YardRules::game`], with a winning sequence of
+/// actions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct YardLevel {
     /// The level, as text.
     pub text: String,
-    /// The actions that win in the minimum number of ticks if no stray gets in the way.
+    /// The actions that win in the minimum number of ticks if no wandering sprite gets in the way.
     pub solution: Vec<Action>,
     /// The fraction of episodes won by a careful player, for each commitment in the configuration.
     pub chances: Vec<f64>,
@@ -136,7 +138,7 @@ impl YardConfig {
     }
 }
 
-/// Creates a careful player for a yard, with a limit of `ticks` ticks.
+/// Creates a simulated player for a yard, with a limit of `ticks` ticks.
 fn lookout<'a>(yard: &'a Yard, timetable: &'a Timetable, ticks: usize) -> Lookout<Errands<'a>> {
     let strays = Strays {
         grid: yard.grid,

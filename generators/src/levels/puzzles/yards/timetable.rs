@@ -1,4 +1,5 @@
-//! The timetable of a yard's carts, and a fastest win. Both are exact, because the avatar does not influence the carts.
+//! The timetable of the carts in a yard, and a fastest win. Both are exact, because the avatar does not influence the
+//! carts.
 
 use super::yard::{RIGHT, Sign, Yard, opposite};
 use crate::levels::grid::WAYS;
