@@ -41,8 +41,8 @@ pub(crate) struct PlayerRate {
 }
 
 impl PlayerRate {
-    /// Adds each player's results over several ladders to a section. The ladder players come first, from weakest to
-    /// strongest, followed by the held-out players.
+    /// Adds each player's results over several levels to a section. The players of the ladder come first, from weakest
+    /// to strongest, followed by the held-out players.
     pub(crate) fn add_all<'a>(section: Section, ladders: impl IntoIterator<Item = &'a Ladder>) -> Section {
         let mut players: Vec<PlayerRate> = Vec::new();
         for fared in ladders.into_iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out)) {

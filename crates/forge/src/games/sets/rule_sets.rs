@@ -26,16 +26,16 @@ const SPARE: usize = 3;
 /// The number of times that nouns are drawn for a set in each scene.
 const NAMINGS: u64 = 6;
 
-/// A set of rules: a kernel in one of its forms, with variants and parameters, named with the nouns of a scene. A set
-/// does not fix the levels. Its parameters may still change, as long as the game does not become similar to another
-/// set.
+/// A set of rules: a kernel (hand-written design) in one of its forms, with variants and parameters, named with the
+/// nouns of a scene (theme). A set does not fix the levels. Its parameters may still change, as long as the game does
+/// not become similar to another set.
 #[derive(Clone, Debug)]
 pub(crate) struct RuleSet {
     genome: KernelGenome,
     form: GameForm,
 }
 
-/// Sets of rules, in turn order. Each kernel has one set before any kernel has a second.
+/// Sets of rules, in turn order. Each kernel (hand-written design) has one set before any kernel has a second.
 ///
 /// A position always has the same set, regardless of the number of positions. Only the first set of each kernel is
 /// drawn immediately. Further sets are drawn on demand, because most releases are small.
@@ -124,8 +124,8 @@ impl Draws {
         sets.sets
     }
 
-    /// Returns the sets with their own names. No two sets share a title or most of a cast, and the scenes take turns.
-    /// Sets for which no names are left are dropped.
+    /// Returns the sets with their own names. No two sets share a title or most of their type names, and the scenes
+    /// (themes) take turns. Sets for which no names are left are dropped.
     fn named(&self, sets: Vec<RuleSet>) -> Vec<RuleSet> {
         let seed = self.seed.child("names", 0).child("sets", 0);
         let mut given = Given::default();
@@ -238,7 +238,8 @@ impl Given {
         Some(RuleSet { genome, ..set })
     }
 
-    /// Returns a game with its title and its cast, if no other set has the title or shares the cast.
+    /// Returns a game with its title and the names of its types, if no other set has the title or shares most of the
+    /// names.
     fn free(&self, genome: KernelGenome) -> Option<(KernelGenome, String, Cast)> {
         let (game, title) = built(&genome)?;
         let cast = Cast::of(&game);

@@ -26,8 +26,9 @@ struct Hits {
     random_within_one: Option<f64>,
 }
 
-/// Compares the requested and the measured difficulty, as a section and as a table; `None` if no difficulty was
-/// requested, or if no ladder played. Levels that could not be measured because no win is known count as misses.
+/// Compares the requested and the measured difficulty, as a section and as a table. Returns `None` if no difficulty was
+/// requested, or if no ladder (reference players of increasing strength) played. Levels that could not be measured
+/// because no win is known count as misses.
 pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(Section, Table)> {
     let asked = |level: &SurveyedLevel| Some((rank(level.asked?), level.label().map(rank)));
     let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();

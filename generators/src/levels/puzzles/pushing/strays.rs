@@ -27,9 +27,9 @@ base::with_defaults! {
         /// The minimum and maximum number of wandering deadly sprites. A level gets the largest number that keeps it
         /// fair.
         pub strays: (usize, usize) = (3, 10),
-        /// The minimum fraction of episodes won by a careful player that looks before every action.
+        /// The minimum fraction of episodes won by a simulated player that looks at the board before every action.
         pub fairness: f64 = 0.4,
-        /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
+        /// The commitments for which the simulated player's win rate is measured. A commitment is the number of ticks
         /// between two looks at the board.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of boards to draw per level.
@@ -51,9 +51,9 @@ const ROOM: usize = 8;
 const SPARE: usize = 2;
 /// The minimum distance between wandering sprites and the avatar at the start.
 const AWAY: usize = 4;
-/// The number of episodes played by the careful player per fairness test.
+/// The number of episodes played by the simulated player per fairness test.
 const PLAYS: usize = 40;
-/// The number of episodes played by the careful player per measured commitment.
+/// The number of episodes played by the simulated player per measured commitment.
 const MEASURED: usize = 200;
 
 /// A pushing puzzle among wandering deadly sprites, in the characters of [`PushRules::game`].
@@ -63,7 +63,7 @@ pub struct StrayLevel {
     pub text: String,
     /// The actions that win if no wandering sprite gets in the way.
     pub solution: Vec<Action>,
-    /// The fraction of episodes won by a careful player, for each commitment in the configuration.
+    /// The fraction of episodes won by a simulated player, for each commitment in the configuration.
     pub chances: Vec<f64>,
     /// The level without wandering sprites.
     calm: Level,

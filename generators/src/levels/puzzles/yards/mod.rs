@@ -30,9 +30,9 @@ base::with_defaults! {
         pub strays: (usize, usize) = (4, 10),
         /// The minimum fraction of the win's ticks from which staying in place for ten ticks would be fatal.
         pub exposure: f64 = 0.2,
-        /// The minimum fraction of episodes won by a careful player that looks before every action.
+        /// The minimum fraction of episodes won by a simulated player that looks at the board before every action.
         pub fairness: f64 = 0.4,
-        /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
+        /// The commitments for which the simulated player's win rate is measured. A commitment is the number of ticks
         /// between two looks at the board.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of yards to draw per level.
@@ -52,9 +52,9 @@ const DETOURS: usize = 6;
 const CARTS: usize = 8;
 /// The maximum number of parcels. Each parcel doubles the time of the win search.
 const PARCELS: usize = 6;
-/// The number of episodes played by the careful player per fairness test.
+/// The number of episodes played by the simulated player per fairness test.
 const PLAYS: usize = 40;
-/// The number of episodes played by the careful player per measured commitment.
+/// The number of episodes played by the simulated player per measured commitment.
 const MEASURED: usize = 200;
 /// The number of attempts to place sprites on each layout of tracks.
 const FURNISHED: usize = 4;
@@ -69,7 +69,7 @@ pub struct YardLevel {
     pub text: String,
     /// The actions that win in the minimum number of ticks if no wandering sprite gets in the way.
     pub solution: Vec<Action>,
-    /// The fraction of episodes won by a careful player, for each commitment in the configuration.
+    /// The fraction of episodes won by a simulated player, for each commitment in the configuration.
     pub chances: Vec<f64>,
 }
 
@@ -183,7 +183,7 @@ fn text(yard: &Yard, length: usize) -> String {
 mod tests {
     use super::*;
 
-    /// The careful player's win rate is the same in the game as in the generator.
+    /// The simulated player's win rate is the same in the game as in the generator.
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const FUSE: usize = 6;
