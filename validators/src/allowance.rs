@@ -126,12 +126,12 @@ impl<'a> Setting<'a> {
         PortfolioConfig { budget: self.bounded(self.criteria.budget, [1, 1]), ..self.criteria.search() }
     }
 
-    /// Returns the ladder's players.
+    /// Returns the players of the ladder, which are reference players of increasing strength.
     pub(crate) fn players(&self) -> LadderConfig {
         LadderConfig { calls: self.bounded(self.criteria.ladder_calls, [5, 3]), ..self.criteria.players() }
     }
 
-    /// Returns the number of forward-model calls per ladder episode.
+    /// Returns the number of forward-model calls per episode of a player on the ladder of reference players.
     pub(crate) fn ladder_play_calls(&self) -> u64 {
         self.bounded(u64::MAX, [2, self.criteria.players().round_plays()])
     }

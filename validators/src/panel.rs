@@ -170,7 +170,7 @@ impl Panel {
             }
             is_over |= is_start && is_over_at_once(game, level, seed.seed());
         }
-        // A ladder player may win a level that the search did not.
+        // A reference player on the ladder may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
             report.witness = Some(won);
             let searched = report.clone();

@@ -47,7 +47,7 @@ impl Report {
         Some(&judgement.finding)
     }
 
-    /// Returns the ladder's results, or `None` if no ladder was played.
+    /// Returns the results of the ladder (reference players of increasing strength), or `None` if no ladder was played.
     pub fn ladder(&self) -> Option<&Ladder> {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }

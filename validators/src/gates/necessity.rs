@@ -23,8 +23,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 ///
 /// 1. the shortest known win no longer wins, or wins earlier by [`Gates::plan_change`], so that different actions are
 ///    needed;
-/// 2. at least [`Gates::plan_change`] of the careless episodes change between win and loss, so that players who do not
-///    foresee everything do better or worse;
+/// 2. at least [`Gates::plan_change`] of the episodes of careless players (which press a random key in some ticks)
+///    change between win and loss;
 /// 3. a search that foresees the random draws of the win finds a much shorter win. It must be shorter by
 ///    [`Gates::plan_change`] than both the known win and the win that the search finds with the element.
 ///
@@ -33,8 +33,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// idle by proving the shortest wins with and without it.
 ///
 /// Removing a moving type shifts the random draws of a stochastic game, so the known win is not replayed without the
-/// type. Costs the replays and the careless episodes. For each element that they do not show to matter, also costs a
-/// search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
+/// type. Costs the replays and the careless players' episodes. For each element that they do not show to matter, also
+/// costs a search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
@@ -131,7 +131,7 @@ struct Shortest {
     sure: bool,
 }
 
-/// A level with its win and its careless episodes.
+/// A level with its win, and with its episodes by careless players, which press a random key in some ticks.
 struct Subject<'a> {
     won: WonLevel<'a>,
     careless: &'a [Episode],

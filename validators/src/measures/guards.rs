@@ -1,4 +1,5 @@
-//! Guards, which are interactions that keep sprites on the board and out of walls, and that hardly count as mechanics.
+//! Guards, which are interactions that only keep sprites on the board and out of walls, and that hardly count as
+//! mechanics.
 
 use super::families::EffectFamily;
 use crate::measures::is_guard;

@@ -128,13 +128,13 @@ fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
 }
 
-/// Returns `true` if the measurement by a ladder's players confirms a difficulty label with a margin.
+/// Returns `true` if the measurement by the ladder's reference players confirms a difficulty label with a margin.
 pub(crate) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
     ladder.difficulty == asked && (low..=high).contains(&ease)
 }
 
-/// Returns the fraction of episodes that a ladder's players won.
+/// Returns the fraction of episodes that the ladder's reference players won.
 pub(crate) fn wins(ladder: &Ladder) -> f64 {
     let plays: u64 = ladder.rungs.iter().map(|fared| fared.rate.plays).sum();
     let wins: u64 = ladder.rungs.iter().map(|fared| fared.rate.wins).sum();

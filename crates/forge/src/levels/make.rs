@@ -225,7 +225,7 @@ impl Maker<'_> {
     }
 }
 
-/// The number of judged levels without a win by any player on the ladder after which no win is expected.
+/// The number of judged levels without a win by any reference player on the ladder after which no win is expected.
 const HOPELESS: u64 = 6;
 
 /// The number of boards to draw for an unjudged level.

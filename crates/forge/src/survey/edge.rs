@@ -171,14 +171,14 @@ impl Edge {
     }
 }
 
-/// Returns the number of episodes that each player on the ladder played on a level.
+/// Returns the number of episodes that each reference player played on a level.
 fn plays_of(report: &Report) -> u64 {
     report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
 }
 
-/// Returns the rank correlation between the players' positions in the ladder and their results over all levels,
-/// compared by wins first and then by score. The correlation is 1 if every stronger player does better, and 0 if all
-/// players do equally well. Returns `None` if no ladder played.
+/// Returns the rank correlation between the reference players' positions on the ladder (from weak to strong) and their
+/// results over all levels, compared by wins first and then by score. The correlation is 1 if every stronger player
+/// does better, and 0 if all players do equally well. Returns `None` if no ladder played.
 pub(super) fn ladder_order(reports: &[Report]) -> Option<f64> {
     let mut players = players(reports);
     players.retain(|player| !player.held_out);

@@ -78,7 +78,7 @@ impl<'a> LevelSurvey<'a> {
     ) -> Result<LevelSurvey<'a>, CriteriaError> {
         let criteria =
             Criteria { random_wins: criteria.random_wins.max(FOR_NOTHING), ..criteria.clone() }.check()?;
-        // The survey plays the ladder's episodes itself, and playing them twice would be expensive.
+        // The survey plays the reference players' episodes itself, and playing them twice would be expensive.
         let panel = criteria.without(CriterionSet::costing(Cost::Ladder));
         Ok(LevelSurvey {
             analysis,

@@ -239,7 +239,8 @@ fn a_survey_is_the_same_on_any_number_of_threads_and_for_a_level_alone() {
     assert_eq!(both, judge(3, &levels));
     let alone = judge(2, &levels[..1]);
     assert_eq!(LevelRow { nearest: None, ..both.levels[0].clone() }, alone.levels[0]);
-    // A level that fails a criterion is still judged by the others, and the ladder still gives it a label.
+    // A level that fails a criterion is still judged by the others, and the reference players still determine its
+    // difficulty label.
     assert!(both.levels[0].passes && !both.levels[1].passes && both.levels[1].solved == "solved");
     assert!(both.set.figure("control", "exact").is_some());
     assert!(both.levels[0].measures.contains_key("openness"));
