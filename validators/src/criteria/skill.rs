@@ -72,11 +72,11 @@ struct Advantage {
 /// The answer given by the episodes so far.
 struct Answer {
     ladder: Ladder,
-    /// The advantages of the players on the ladder, followed by the advantages of the held-out players.
+    /// The advantages of the reference players on the ladder, followed by the advantages of the held-out players.
     advantages: [Vec<Advantage>; 2],
     /// `true` if a win is known.
     won: bool,
-    /// `true` if a player on the ladder shows skill.
+    /// `true` if a reference player on the ladder shows skill.
     shown: bool,
     /// `true` if a held-out player shows skill.
     accepted: bool,

@@ -33,14 +33,14 @@ impl<'a> CarelessPlays<'a> {
         CarelessPlays { game, seed, levels: plays, closer }
     }
 
-    /// Returns the careless players' episodes on a level. The first call costs one forward-model call per action and
-    /// tick.
+    /// Returns the episodes on a level by careless players, which press a random key in some ticks. The first call
+    /// costs one forward-model call per action and tick.
     pub(super) fn plays(&self, won: WonLevel<'_>, gates: &Gates) -> &[Episode] {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }
 
-    /// Returns the careless players' win rate on a level, measured over [`CLOSER`] times the usual number of episodes.
-    /// The first call costs these episodes.
+    /// Returns the win rate of careless players on a level, measured over [`CLOSER`] times the usual number of
+    /// episodes. The first call costs these episodes.
     pub(super) fn closer_win_share(&self, won: WonLevel<'_>, gates: &Gates) -> f64 {
         *self.closer[won.number].get_or_init(|| {
             let first = gates.careless_plays;

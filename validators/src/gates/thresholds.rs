@@ -48,12 +48,12 @@ base::with_defaults! {
         /// `tight`, `progression`, `actors-matter`, `necessity`: the number of episodes of careless players per level.
         /// They head for the nearest goal, but press a random key in some ticks.
         pub careless_plays: u32 = 8,
-        /// The fraction of ticks in which a careless player presses a random key.
+        /// The fraction of ticks in which a careless player (see `careless_plays`) presses a random key.
         pub careless_slips: f64 = 0.25,
-        /// `tight`: the maximum fraction of their episodes that careless players may win.
+        /// `tight`: the maximum fraction of their episodes that careless players (see `careless_plays`) may win.
         pub careless_wins: f64 = 0.5,
-        /// `necessity`: the minimum relative change in the length of a win, or the minimum fraction of careless
-        /// players' episodes that end differently, at which an element matters.
+        /// `necessity`: the minimum relative change in the length of a win, or the minimum fraction of episodes of
+        /// careless players (see `careless_plays`) that end differently, at which an element matters.
         pub plan_change: f64 = 0.15,
         /// `necessity`: the minimum fraction of levels on which a rule or type must matter in order to count, among the
         /// levels on which it occurs.

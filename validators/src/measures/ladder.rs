@@ -44,7 +44,7 @@ pub struct PlayerResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ladder {
-    /// The results of the ladder's players, from weakest to strongest, in the order of the criteria.
+    /// The results of the reference players on the ladder, from weakest to strongest, in the order of the criteria.
     pub rungs: Vec<PlayerResult>,
     /// The results of the players that are held out until acceptance.
     pub held_out: Vec<PlayerResult>,
