@@ -1,5 +1,5 @@
-//! Plays the episodes of reference players in memory. Their results become a release's marks, which are the
-//! baseline for other results.
+//! Plays the episodes of reference players in memory. Their results are stored in a release (as its *marks*), where
+//! they are the baseline for other results.
 
 use super::ReferencePlayer;
 use crate::commitment::Commitment;

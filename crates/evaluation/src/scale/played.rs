@@ -17,7 +17,7 @@ use std::path::PathBuf;
 pub struct PersonPlays {
     /// The person who played the episodes.
     pub player: Player,
-    /// The person's dimension. Players that see the state are planners, and all other players are readers.
+    /// The person's dimension. Players that see the state are planners, and players that see only prompts are readers.
     pub dimension: Dimension,
     /// The number of episodes excluded because of their settings, by difference from the settings of the
     /// scale. The key lists the differing settings, such as `--commit 3`. `levels` does not include these

@@ -266,8 +266,8 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that a sealed release commits to its secret, to a witness of every level, and to no other withheld
-/// file.
+/// Checks the withheld files of a sealed release: the release must commit to its secret, to a witness of every level,
+/// and to no other withheld file.
 fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
     if manifest.kind != ReleaseKind::Sealed {
         return;

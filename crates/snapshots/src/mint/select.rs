@@ -83,8 +83,9 @@ pub(super) struct Contender {
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// The titles and casts of the game and its sibling. Selection treats the game and its sibling identically, so
-    /// the selected games reveal nothing about the secret coin toss that decides which of the two is published.
+    /// The titles and type names of the game and of its sibling (the withheld renamed copy). Selection treats both
+    /// identically, so the selected games reveal nothing about the secret random choice of which of the two is
+    /// published.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.

@@ -235,8 +235,8 @@ fn publish(
 }
 
 impl Minted {
-    /// Completes a draft that contains the release files by adding the manifest and the papers. `place` maps
-    /// the paths of the added files.
+    /// Completes a draft that contains the release files by adding the manifest and the papers (documents such as the
+    /// licence). `place` maps the paths of the added files.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.

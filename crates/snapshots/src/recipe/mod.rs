@@ -72,7 +72,7 @@ pub struct Recipe {
     /// New puzzles in which the player carries parcels between carts in a yard.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yards: Option<PuzzlePart>,
-    /// New puzzles about pushing things among strays (sprites that wander at random and kill).
+    /// New puzzles about pushing things among strays (deadly sprites that wander at random).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strays: Option<PuzzlePart>,
     /// The sizes of the boards.
@@ -87,7 +87,8 @@ pub struct Recipe {
     /// The reference players, which never change. The release contains their results on each level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<MarksPart>,
-    /// The coin tosses for memory tests. Each toss decides between two renamings of a game or two wins of a level.
+    /// The secret random choices for memory tests. Each decides between two renamings of a game, or between two wins of
+    /// a level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryPart>,
     /// The quotas for kinds of games.

@@ -1,4 +1,4 @@
-//! Tests of twins of corpus games, which have the same mechanics under any surface.
+//! Tests of twins of corpus games, which have the same mechanics but different names, characters or orientation.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;

@@ -12,7 +12,7 @@ use validators::novelty::GameForm;
 /// kernels suffice.
 const FEW: usize = 40;
 
-/// The number of rule sets that one invented game uses up. Nine in ten rule sets have no board that passes, and
+/// The number of rule sets to draw per invented game. Nine in ten rule sets have no board that passes, and
 /// near-duplicates among a month's candidates are dropped.
 const SETS_OF_A_GAME: f64 = 16.0;
 

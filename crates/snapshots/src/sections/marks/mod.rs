@@ -163,7 +163,7 @@ pub type Wins = Vec<Vec<u64>>;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Marks {
-    /// The release's canary.
+    /// The release's canary: an identifier that shows whether a text corpus contains the release.
     pub canary: String,
     /// The version of the format: [`MARKS_FORMAT`].
     pub format: u32,

@@ -1,4 +1,4 @@
-//! The implementation of the hooks for `[marks]`.
+//! The implementation of the hooks for `[marks]`, the results of reference players.
 
 use super::check::{problems, shape_problem};
 use super::{GameMarks, LevelMarks, Marks, MarksPart};
@@ -16,7 +16,7 @@ use forge::card::Card;
 use serde_json::{Map, Value, json};
 use validators::Tier;
 
-/// The `[marks]` section of a recipe.
+/// The `[marks]` section of a recipe, which requests the results of reference players.
 pub(crate) struct MarksSection;
 
 impl Section for MarksSection {

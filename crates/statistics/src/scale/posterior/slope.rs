@@ -9,7 +9,7 @@ use crate::scale::spreads::{PLANNERS_ONLY, Spreads, WITH_READERS};
 use arrayvec::ArrayVec;
 use nalgebra::{DMatrix, DVector};
 
-/// Values for one examinee's results on a level, evaluated at the mode.
+/// Values for the results of one examinee (reference player) on a level, evaluated at the mode.
 struct Place {
     rest: f64,
     weight: f64,
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
     use crate::scale::simulated::{Plan, Simulator};
 
-    /// The derivatives match finite differences, with and without readers.
+    /// The derivatives match finite differences, with and without readers (players that see only prompts).
     #[test]
     fn derivatives_are_those_of_differences() {
         for anchors in [0, 2] {
