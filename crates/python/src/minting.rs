@@ -93,7 +93,7 @@ fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: Digest::of(LOCKFILE), players: &Players }
 }
 
-/// The players that measure marks, by the names that `arcade evaluate --player` accepts.
+/// The reference players whose results a release stores, by the names that `arcade evaluate --player` accepts.
 #[derive(Debug)]
 struct Players;
 

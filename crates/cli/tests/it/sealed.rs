@@ -361,8 +361,8 @@ fn another_secret_is_refused() {
     );
 }
 
-/// A recipe uses memory tests and a beacon together. The coins, the siblings and the second wins follow from
-/// the seed combined with the beacon's value.
+/// A recipe uses memory tests and a beacon together. The random choices, the renamed copies and the second wins follow
+/// from the seed combined with the beacon's value.
 #[test]
 fn coins_follow_from_the_beacon_too() {
     let home = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! The looks of a game's sprite types.
+//! The looks of a game's sprite types. A look determines how a type is drawn: shape, colour and letter.
 
 use super::colour::{Colour, INK, PAPER};
 use super::figure::{Form, Hint, Mood};

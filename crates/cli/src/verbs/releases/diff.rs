@@ -217,7 +217,8 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
     }
 }
 
-/// Lists the differences in marks by tier, with the overall differences last.
+/// Lists the differences in the results of reference players by tier (difficulty class), with the overall differences
+/// last.
 fn marked(marks: &[MarkDifference], console: &Console) {
     if marks.is_empty() {
         return;

@@ -64,8 +64,8 @@ pub(crate) struct Args {
     resume: bool,
 }
 
-/// The default seed text for evaluations, also used for marks in mints. Calibrations must use a different
-/// seed text.
+/// The default seed text for evaluations, also used when mints play their reference players. Calibrations must use a
+/// different seed text.
 const OTHERS: &str = "evaluate";
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -161,7 +161,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the examinees that take part: all examinees, or those of an earlier scale.
+/// Returns the examinees (reference players that never change) that take part: all examinees, or those of an earlier
+/// scale.
 fn examinees(
     earlier: Option<&ScaleFile>,
     path: &Option<PathBuf>,
@@ -231,7 +232,8 @@ fn calibrated(
     Ok(scale)
 }
 
-/// Rejects reader results that could not be included, before anything is played.
+/// Rejects the results of readers (players that see only prompts) that could not be included, before anything is
+/// played.
 fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) -> Result<(), Failure> {
     if args.readers.is_empty() {
         return Ok(());

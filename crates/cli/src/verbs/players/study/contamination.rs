@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(!players.iter().any(|player| player.evidence.is_seen()))
 }
 
-/// Returns a revealed release's coins: the random choices that decided which of two equivalent items was
+/// Returns the secret random choices ("coins") of a revealed release, which decided which of two equivalent items was
 /// published.
 fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let manifest = &released.manifest;
