@@ -197,7 +197,7 @@ fn rounded(figure: f64) -> String {
 
 fn ladder(rungs: &[RungDifference], console: &Console) {
     if rungs.is_empty() {
-        console.say("\nwin rates: no ladder player played both releases");
+        console.say("\nwin rates: no reference player played both releases");
         return;
     }
     console

@@ -173,8 +173,8 @@ fn examinees(
     if known.is_empty() {
         let path = path.as_deref().unwrap_or(Path::new("scale.json")).in_message();
         bail!(
-            "{path}: this version of arcade lacks the examinees of this scale; calibrate with the version \
-             that has them"
+            "{path}: this version of arcade lacks the reference players (examinees) of this scale; calibrate \
+             with the version that has them"
         );
     }
     Ok(known)
@@ -254,8 +254,8 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
         }
         if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
             bail!(
-                "{name}: it did not play the first release of the scale, so it isn't an anchor; place it \
-                 with `arcade study scale`, and omit it from --readers"
+                "{name}: it did not play the first release of the scale, so it isn't an anchor (a reader that \
+                 links months); place it with `arcade study scale`, and omit it from --readers"
             );
         }
     }

@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let mut unknown = found.players.iter().map(|player| player.unknown).zip(&players);
         let is_of_release = unknown.any(|(unknown, player)| unknown < player.episodes.len() as u64);
         let what = match is_of_release {
-            true => "no player has played both a game and its sibling, or a level with two wins",
+            true => "no player has played both a game and its renamed sibling, or a level with two wins",
             false => "these results contain no episode on any level of the release",
         };
         bail!("{name}: {what}; {}", next(args));
@@ -102,7 +102,8 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     }
     if MemoryPart::of(manifest).is_none() {
         bail!(
-            "{place}: `{name}` has no withheld siblings or wins, because its recipe has no `[memory]`; {how}"
+            "{place}: `{name}` has no withheld siblings (renamed games) or wins, because its recipe has no \
+             `[memory]`; {how}"
         );
     }
     let coins = Coins { games: released.games.iter().map(coin).collect() };
@@ -114,7 +115,7 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
                  ask its publisher to: arcade release PUBLIC --reveal HELD --out DIR"
             );
         }
-        bail!("{place}: `{name}` has no sibling of any game and no second win of any level");
+        bail!("{place}: `{name}` has no sibling (renamed copy) of any game and no second win of any level");
     }
     Ok(coins)
 }
