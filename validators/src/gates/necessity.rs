@@ -16,10 +16,10 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and placed
-/// types, except avatars, walls, the background and types that an ending counts. An element matters if, on at least
-/// [`Gates::needed_levels`] of the levels on which it occurs, the game without it meets one of the following
-/// conditions. The cheapest condition is tested first:
+/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards (which only
+/// keep sprites on the board), and placed types, except avatars, walls, the background and types that an ending counts.
+/// An element matters if, on at least [`Gates::needed_levels`] of the levels on which it occurs, the game without it
+/// meets one of the following conditions. The cheapest condition is tested first:
 ///
 /// 1. the shortest known win no longer wins, or wins earlier by [`Gates::plan_change`], so that different actions are
 ///    needed;

@@ -9,7 +9,7 @@ use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
 /// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions executed in its
-/// shortest known win, not counting guards. There are three conditions:
+/// shortest known win, not counting guards (rules that only keep sprites on the board). There are three conditions:
 ///
 /// - At least [`Gates::growth`] levels need mechanics that no earlier level needed.
 /// - The last level needs as many mechanics as the first, and at least [`Gates::last_share`] of all mechanics needed on

@@ -23,7 +23,8 @@ pub struct PlayMeasures {
     pub density: f64,
     /// The randomness, from 0 to 1: the fraction of actions, at some ticks, whose result differs between random seeds.
     pub chance: f64,
-    /// The total number of distinct interactions executed in won episodes, not counting guards.
+    /// The total number of distinct interactions executed in won episodes, not counting guards (rules that only keep
+    /// sprites on the board and out of walls).
     pub mechanics: usize,
     /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). From a given moment, this is the look-ahead that
     /// is needed to see that the episode is better than random play, because it wins, does not lose, or scores more.
@@ -91,8 +92,8 @@ impl PlayMeasures {
     }
 }
 
-/// Returns the interactions executed in an episode, not counting guards, as indices into
-/// [`Description::interactions`](engine::Description). Costs one replay of the episode.
+/// Returns the interactions executed in an episode, as indices into [`Description::interactions`](engine::Description).
+/// Guards, which only keep sprites on the board and out of walls, are not counted.
 pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &Episode) -> BTreeSet<usize> {
     let mut counter = Counter::new(guards);
     let mut state = game.start(level, episode.seed);
@@ -185,7 +186,7 @@ fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     unsure as f64 / actions.len() as f64
 }
 
-/// A counter for executed interactions other than guards.
+/// A counter for executed interactions other than guards, which only keep sprites on the board and out of walls.
 struct Counter<'a> {
     guards: &'a Guards,
     executions: u64,

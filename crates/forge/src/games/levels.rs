@@ -91,7 +91,8 @@ impl Levels<'_> {
 }
 
 impl FoundLevel {
-    /// Returns the interactions that the level's win executes, not counting guards.
+    /// Returns the interactions that the level's win executes, not counting guards (rules that only keep sprites on the
+    /// board and out of walls).
     pub(crate) fn mechanics(&self, game: &Game, guards: &Guards) -> BTreeSet<usize> {
         let Some(win) = &self.report.witness else { return BTreeSet::new() };
         let guards: BTreeSet<usize> = guards.lines().collect();

@@ -19,9 +19,11 @@ pub struct GameOrder {
     pub levels: u32,
     /// The maximum number of levels to try for one position.
     pub level_tries: u32,
-    /// The minimum number of interactions in a game, including guards.
+    /// The minimum number of interactions in a game, including guards (rules that only keep sprites on the board and
+    /// out of walls).
     pub least_interactions: usize,
-    /// The minimum number of different interactions, not counting guards, that the wins of all levels execute in total.
+    /// The minimum number of different interactions, not counting guards (rules that only keep sprites on the board),
+    /// that the wins of all levels execute in total.
     pub least_mechanics: usize,
     /// The criteria that each game must meet; see [`GameOrder::criteria_by_default`].
     pub criteria: CheckedCriteria,

@@ -22,8 +22,8 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// Returns the counted types: all types that can have sprites, including relatives. A type counted twice
-    /// by a `MultiSpriteCounter` occurs twice.
+    /// Returns the counted types: all types that can have sprites, including types related to them in the SpriteSet. A
+    /// type counted twice by a `MultiSpriteCounter` occurs twice.
     pub fn types(&self) -> &[SpriteType] {
         match self {
             Condition::AtMost(types, _) | Condition::AtLeast(types, _) | Condition::Exactly(types, _) => {
