@@ -1,5 +1,5 @@
-//! The file `scale.json`, which contains the examinees (reference players that never change), the spreads, and the
-//! levels of each release with their difficulties.
+//! The file `scale.json`, which contains the examinees (reference players that never change), the spreads (the model's
+//! standard deviations), and the levels of each release with their difficulties.
 
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
@@ -61,7 +61,8 @@ pub struct ScaleFile {
     pub ease: f64,
     /// The correlation between the difficulties for planners and for readers (players that see only prompts).
     pub correlation: Option<Span>,
-    /// The number of parametric bootstrap replicates used to estimate the spreads and the correlation.
+    /// The number of parametric bootstrap replicates used to estimate the spreads (the model's standard deviations) and
+    /// the correlation.
     pub replicates: u64,
     /// The releases on the scale, in chronological order.
     pub months: Vec<MonthEntry>,

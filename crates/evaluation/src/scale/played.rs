@@ -29,16 +29,16 @@ pub struct PersonPlays {
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads the persons' results in results folders. Persons are distinguished in the same way as in reports.
-/// Aborted episodes do not count. Episodes whose track, commitment or step limit differs from that of a scale
-/// with `max_steps` do not count either, because the scale's difficulties do not apply to them.
+/// Reads the persons' results in results folders. Persons are distinguished in the same way as in reports. Aborted
+/// episodes do not count. Episodes whose track (prompt settings), commitment (actions per decision) or step limit
+/// differs from that of a scale with `max_steps` do not count either, because the scale's difficulties do not apply to
+/// them.
 ///
-/// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current
-/// rayon pool.
+/// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current rayon pool.
 ///
 /// # Errors
-/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders
-/// contain different episodes of the same person, level, run and seed.
+/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders contain
+/// different episodes of the same person, level, run and seed.
 pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, EvaluationError> {
     let (persons, settings) = persons(folders)?;
     let person = |(player, episodes): (Player, Vec<EpisodeMetrics>)| {

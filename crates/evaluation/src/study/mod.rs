@@ -93,7 +93,8 @@ pub struct Study {
     pub kinds: Vec<TaxonomyRow>,
     /// The results by kind of game, as derived from the rules.
     pub taxonomy: Vec<TaxonomyRow>,
-    /// The horizons of players with several commitments, by kind of game.
+    /// The horizons of players with results for several numbers of actions per decision, by kind of game. A horizon is
+    /// the number of actions at which a player still wins half of its episodes.
     pub horizons: Vec<HorizonRow>,
     /// The reference results on the levels, with the players' results on the same levels. The list is empty
     /// if the releases contain no reference results.

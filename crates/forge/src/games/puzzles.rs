@@ -18,7 +18,7 @@ use validators::Tier;
 pub struct PuzzleLevels {
     /// The configuration of the levels, with the board sizes.
     pub config: LevelConfig,
-    /// The tier of each level.
+    /// The tier (difficulty class) of each level.
     pub tiers: Vec<Tier>,
     /// The rules of the puzzles.
     pub rules: PuzzleRules,
@@ -88,7 +88,7 @@ pub(crate) enum PuzzleGenerator<'a> {
     /// Generates pushing puzzles that meet a target.
     Pushing(Box<PuzzleVariation<'a>>),
     /// Generates pushing puzzles without a target. The range contains the numbers of actions in a win that the tier
-    /// allows.
+    /// (difficulty class) allows.
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
     Yards(YardConfig, &'a Retold<YardRules>),
@@ -144,11 +144,11 @@ const MOST_ACTIONS: usize = 160;
 const FLOOR_PLANS: usize = 20_000;
 /// The maximum number of floor plans without a target.
 const FEW_FLOOR_PLANS: usize = 60;
-/// The maximum number of levels to draw until one has as many actions as the tier requires.
+/// The maximum number of levels to draw until one has the number of actions that the tier (difficulty class) requires.
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
-    /// Returns the tier of a position in the game.
+    /// Returns the tier (difficulty class) of a position in the game.
     pub(crate) fn tier(&self, number: u32) -> Tier {
         self.tiers.get(number as usize).copied().unwrap_or(Tier::Four)
     }
@@ -228,9 +228,9 @@ fn traffic(tier: Tier) -> (usize, f64) {
     }
 }
 
-/// Returns the target for a tier; `None` for tiers without a target. The generator counts the actions of a win with the
-/// minimum number of pushes. The shortest win has fewer actions, so the target includes a margin. Puzzles with more
-/// than three pushable objects require more pushes and actions.
+/// Returns the target for a tier (difficulty class); `None` for tiers without a target. The generator counts the
+/// actions of a win with the minimum number of pushes. The shortest win has fewer actions, so the target includes a
+/// margin. Puzzles with more than three pushable objects require more pushes and actions.
 fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     let pushes = match tier {
         Tier::One | Tier::Two => return None,

@@ -27,8 +27,8 @@ impl FrozenGame {
     }
 }
 
-/// Measures the tier of every level without a tier. In stochastic games, a shorter win found during the measurement
-/// replaces the witness.
+/// Measures the tier (difficulty class) of every level without a tier. In stochastic games, a shorter win found during
+/// the measurement replaces the witness.
 fn measure(made: &mut MadeGame) {
     let analysis = Analysis::of(&made.game);
     let won = made.levels.iter().zip(&mut made.witnesses);

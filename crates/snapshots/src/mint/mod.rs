@@ -303,7 +303,7 @@ mod tests {
             assert_eq!(games.len(), 1, "{job:?}");
             check(plan.seed, &games[0]);
         }
-        // If tiers are measured, shorter wins replace the witnesses of stochastic levels.
+        // If tiers (difficulty classes) are measured, shorter wins replace the witnesses of stochastic levels.
         let moths = FETCH
             .replace("avatar > MovingAvatar", "moth > RandomNPC color=GRAY\n        avatar > MovingAvatar")
             .replace("A > floor avatar", "m > floor moth\n        A > floor avatar")

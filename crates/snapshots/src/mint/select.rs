@@ -90,7 +90,7 @@ pub(super) struct Contender {
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
     pub(super) difficulties: Vec<Difficulty>,
-    /// The tiers of the game's levels, if tiers were measured.
+    /// The tiers (difficulty classes) of the game's levels, if tiers were measured.
     tiers: Vec<Tier>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
@@ -168,7 +168,7 @@ impl Plan<'_> {
     }
 }
 
-/// Returns the requested number of levels per tier; empty if the recipe does not request tiers.
+/// Returns the requested number of levels per tier (difficulty class); empty if the recipe does not request tiers.
 fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
     if recipe.tiers.is_empty() {
         return Vec::new();

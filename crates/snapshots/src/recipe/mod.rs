@@ -81,7 +81,7 @@ pub struct Recipe {
     /// The fraction of all levels with each difficulty. If empty, any difficulty is accepted.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub difficulty: BTreeMap<Difficulty, f64>,
-    /// The fraction of all levels in each tier. If empty, tiers are not measured.
+    /// The fraction of all levels in each tier (difficulty class from 1 to 4). If empty, tiers are not measured.
     #[serde(default, skip_serializing_if = "Tiers::is_empty")]
     pub tiers: Tiers,
     /// The reference players, which never change. The release contains their results on each level.

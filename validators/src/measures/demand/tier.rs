@@ -18,7 +18,7 @@ pub enum Tier {
     Four = 4,
 }
 
-/// The minimum demands of a level in a tier.
+/// The minimum demands of a level in a tier (difficulty class).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TierBounds {
     /// The tier with these bounds.
@@ -29,7 +29,7 @@ pub struct TierBounds {
     pub traps: usize,
 }
 
-/// The minimum demands of each tier. A level belongs to the highest tier whose demands it meets.
+/// The minimum demands of each tier (difficulty class). A level belongs to the highest tier whose demands it meets.
 pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::One, decisions: 0, traps: 0 },
     TierBounds { tier: Tier::Two, decisions: 20, traps: 1 },

@@ -72,7 +72,7 @@ impl Section for MarksSection {
     }
 }
 
-/// Returns a game's reference results, with the tiers from its card.
+/// Returns a game's reference results, with its levels' tiers (difficulty classes) from its card.
 fn marks_of(game: &FrozenGame) -> GameMarks {
     let levels = game.card.levels.iter().zip(&game.marks);
     let level =

@@ -23,8 +23,8 @@ pub(crate) struct Request {
     pub(crate) place: usize,
 }
 
-/// Generates a puzzle in its own scene, with levels from the lowest to the highest requested tier. `root` is the
-/// release's seed, and `seed` is the job's seed.
+/// Generates a puzzle in its own scene (theme), with levels from the lowest to the highest requested tier (difficulty
+/// class). `root` is the release's seed, and `seed` is the job's seed.
 pub(crate) fn make(
     recipe: &Recipe,
     criteria: &CheckedCriteria,
