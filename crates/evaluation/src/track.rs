@@ -66,14 +66,14 @@ impl Track {
         format!("{}@{}", self.name(), self.version())
     }
 
-    /// Returns the aid that distinguishes the track's players from those on other tracks, as written in
-    /// results, such as `track=masked@1`.
+    /// Returns the phrase that distinguishes the track's players from those on other tracks, as written in results,
+    /// such as `track=masked@1`.
     pub fn aid(self) -> String {
         format!("{AID}{}", self.id())
     }
 }
 
-/// The prefix of the aid that states a player's track.
+/// The prefix of the phrase that states a player's track.
 pub(crate) const AID: &str = "track=";
 
 impl fmt::Display for Track {

@@ -41,8 +41,8 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
     }
 
-    /// Returns the form of the kernel from which a game was generated. A form is a variation of a kernel. Returns
-    /// `None` for the unmodified kernel.
+    /// Returns the form of the kernel (hand-written design) from which a game was generated. A form is a variation of a
+    /// kernel. Returns `None` for the unmodified kernel.
     pub fn form(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("form/"))
@@ -54,8 +54,9 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
-    /// Returns the kernel and variants of a generated game, without duplicates. For games from earlier generators,
-    /// returns all patterns except the theme or scene and the edits made by search and shrinking.
+    /// Returns the kernel (hand-written design) and the variants of a generated game, without duplicates. For games
+    /// from earlier generators, returns all patterns except the theme or scene and the edits made by search and
+    /// shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =

@@ -431,8 +431,8 @@ fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     kinds_at_start(&subject.analysis, levels)
 }
 
-/// Grades an answer to the last question in a series. Without a usable answer, no prediction is correct and
-/// the insight is 0.
+/// Grades an answer to the last question in a series. Without a usable answer, no prediction is correct and the insight
+/// (agreement with the rules) is 0.
 pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: Option<&Predicted>) -> Grade {
     match predicted {
         Some(predicted) => grade(analysis, kinds, predicted),

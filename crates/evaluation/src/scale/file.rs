@@ -26,7 +26,7 @@ const MAX_SCALE: usize = 1 << 24;
 /// The maximum absolute value of a logit on a scale. At this value, a player wins (or loses) all but one in
 /// 10⁴³⁴ episodes.
 const MAX_LOGIT: f64 = 1000.0;
-/// The maximum misfit for a game.
+/// The maximum misfit for a game, which measures how badly its results fit the model.
 const MAX_MISFIT: f64 = 1e12;
 /// The minimum standard deviation in the model. Calibrations estimate the logarithms of standard deviations,
 /// so 0 is not allowed.

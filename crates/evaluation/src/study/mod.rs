@@ -70,7 +70,8 @@ pub struct Study {
     pub pairs: Contrasts,
     /// The comparisons between each model's zero-shot mode and its contextual mode.
     pub modes: Contrasts,
-    /// The comparisons between each model without an aid and the same model with the aid.
+    /// The comparisons between each model without an aid (an optional part of the prompt) and the same model with the
+    /// aid.
     pub aids: Contrasts,
     /// The correlations between winning and other variables.
     pub correlations: Correlations,

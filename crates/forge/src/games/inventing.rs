@@ -46,8 +46,9 @@ pub fn invent_one(
 
 /// Invents the games of an order in rounds. Each round takes the games of all earlier rounds into account. Any two of
 /// the games and the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a
-/// title or most of their names. `canary` marks the games' files. The same order, known games and seed give the same
-/// games on any number of threads. Cost: several core minutes per game, on all threads of the current rayon pool.
+/// title or most of their names. The games' files contain `canary`, which identifies the release in text corpora. The
+/// same order, known games and seed give the same games on any number of threads. Cost: several core minutes per game,
+/// on all threads of the current rayon pool.
 ///
 /// If too few games succeed, the set contains fewer games than requested.
 ///

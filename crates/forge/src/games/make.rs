@@ -116,7 +116,8 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// Creates a maker that builds games from kernels. Such games are drawn at random, whatever the order's method.
+    /// Creates a maker that builds games from kernels (hand-written designs). Such games are drawn at random, whatever
+    /// the order's method.
     fn of_kernels(
         order: &'a GameOrder,
         known: &'a [GameForm],

@@ -9,7 +9,7 @@ use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 /// A game order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
-    /// The method of inventing games. Games from kernels are always drawn at random.
+    /// The method of inventing games. Games from kernels (hand-written designs) are always drawn at random.
     pub method: Method,
     /// The number of games.
     pub count: u32,
@@ -68,7 +68,7 @@ pub struct GameEffort {
 }
 
 impl GameOrder {
-    /// Creates an order of `count` games from kernels of all kinds, with five levels each.
+    /// Creates an order of `count` games from kernels (hand-written designs) of all kinds, with five levels each.
     pub fn new(count: u32) -> GameOrder {
         GameOrder {
             method: Method::Constructive,

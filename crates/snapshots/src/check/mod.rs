@@ -71,7 +71,7 @@ pub struct Verification {
     /// reported as a problem.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exceeded: Option<u64>,
-    /// The number of papers stored with the release, which the root does not cover.
+    /// The number of papers (documents such as the licence) stored with the release, which the root does not cover.
     pub papers: usize,
     /// The names of files that other programs left in the release folder. The content of such files is not read.
     pub ignored: Vec<String>,

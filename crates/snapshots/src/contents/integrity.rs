@@ -322,7 +322,8 @@ mod tests {
         check(write("games/x/a b", b""), &[("games/x/a b", spaced)]);
     }
 
-    /// Papers, and files that other programs leave outside the tree, are listed and do not count as tampering.
+    /// Papers (documents such as the licence), and files that other programs leave outside the tree, are listed and do
+    /// not count as tampering.
     #[test]
     fn files_outside_the_tree() {
         let release = release();
@@ -338,7 +339,7 @@ mod tests {
             ["papers/LICENSE"]
         );
         assert_eq!(beside.ignored, [".DS_Store", ".git"]);
-        // The root does not protect papers, even if the manifest lists them.
+        // The root does not protect papers (documents such as the licence), even if the manifest lists them.
         let mut files = FILES.to_vec();
         files.push(("papers/LICENSE", b"MIT"));
         let text = example(&files).to_bytes().expect("sound");

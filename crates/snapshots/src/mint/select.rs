@@ -30,7 +30,7 @@ use validators::{Difficulty, GameForm, Tier};
 pub(super) enum Part {
     /// New levels for corpus games.
     Corpus,
-    /// New games from kernels.
+    /// New games from kernels (hand-written designs).
     Generated,
     /// Invented games.
     Invented,

@@ -156,8 +156,8 @@ impl Prepared<'_> {
 }
 
 impl Shards {
-    /// Merges the shards. The result is bit-identical to a release minted in one piece. `secret` is the secret of a
-    /// sealed release.
+    /// Merges the shards (separately minted parts). The result is bit-identical to a release minted in one piece.
+    /// `secret` is the secret of a sealed release.
     ///
     /// Cost: one [`Shards::check`], on all threads of the current rayon pool.
     ///

@@ -57,7 +57,7 @@ pub struct Recipe {
     /// New levels for corpus games.
     #[serde(default)]
     pub corpus: CorpusPart,
-    /// New games from kernels, with levels.
+    /// New games from kernels (hand-written designs), with levels.
     #[serde(default)]
     pub generated: GeneratedPart,
     /// Invented games.

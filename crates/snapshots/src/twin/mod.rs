@@ -229,7 +229,8 @@ impl Made {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// Completes the twin with its text, preceded by the title and by the original's canary if there is one.
+    /// Completes the twin with its text, preceded by the title and by the original's canary (the release's identifier
+    /// in text corpora) if there is one.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));

@@ -95,8 +95,8 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// Calibrates a first release by estimating spreads, abilities and difficulties. Every examinee (a reference player
-    /// that never changes) must have played at least one episode.
+    /// Calibrates a first release by estimating spreads (standard deviations), abilities and difficulties. Every
+    /// examinee (a reference player that never changes) must have played at least one episode.
     ///
     /// Returns `None` if there are no episodes, if an entry is invalid, or if an examinee has no episodes. Cost: a few
     /// hundred evaluations of O(games · effects³) each.
@@ -106,7 +106,8 @@ impl Calibration {
         Calibration::with_spreads(examinees, games, spreads)
     }
 
-    /// Calibrates a first release with given spreads. Only abilities and difficulties are estimated.
+    /// Calibrates a first release with given spreads (standard deviations). Only abilities and difficulties are
+    /// estimated.
     pub fn with_spreads(
         examinees: &[Examinee],
         games: &[GamePlays],
@@ -155,7 +156,7 @@ impl Calibration {
     }
 
     /// Adds a release by fixed-parameter calibration. The difficulties of the new levels are estimated, while abilities
-    /// and spreads stay fixed.
+    /// and spreads (standard deviations) stay fixed.
     ///
     /// Returns `None` in the same cases as [`Calibration::new`], except that reference players without episodes are
     /// allowed.
@@ -264,7 +265,7 @@ fn checked<'a>(
     (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
 }
 
-/// Returns the spreads with the maximum posterior density after integrating out all effects.
+/// Returns the spreads (standard deviations) with the maximum posterior density after integrating out all effects.
 pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {

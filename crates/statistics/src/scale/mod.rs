@@ -8,9 +8,9 @@
 //! Difficulty has two dimensions, one for planners and one for readers (players that see only prompts). The difficulty
 //! for readers is the difficulty for planners multiplied by a slope, plus an independent remainder.
 //!
-//! [`Calibration`] estimates spreads by Laplace's method, and corrects their shrinkage by a parametric bootstrap. It
-//! adds months while abilities and spreads stay fixed. [`ability()`] estimates a player's ability by quadrature.
-//! [`expected_error`] supports planning, and [`Selection`] chooses levels adaptively.
+//! [`Calibration`] estimates the standard deviations ([`Spreads`]) by Laplace's method, and corrects their shrinkage by
+//! a parametric bootstrap. It adds months while abilities and spreads stay fixed. [`ability()`] estimates a player's
+//! ability by quadrature. [`expected_error`] supports planning, and [`Selection`] chooses levels adaptively.
 
 mod ability;
 mod calibration;

@@ -24,7 +24,7 @@ pub struct Plan {
     pub anchors: usize,
     /// The number of episodes per reader (a player that sees only prompts) and level.
     pub anchor_runs: u32,
-    /// The number of bootstrap replicates used to correct the bias of the spreads.
+    /// The number of bootstrap replicates used to correct the bias of the spreads (standard deviations).
     pub replicates: u64,
     /// The model's true standard deviations and slopes.
     pub spreads: Spreads,
@@ -166,7 +166,7 @@ impl Simulator {
 pub struct AbilityCase {
     /// The player's true ability.
     pub ability: f64,
-    /// The standard deviation of the player's match effects.
+    /// The standard deviation of the player's match effects, which state how well each game suits the player.
     pub mismatch: f64,
     /// The number of episodes that the player plays.
     pub episodes: usize,
@@ -185,7 +185,7 @@ pub struct LinkTrial {
     /// The error of the drift (the additional difficulty for readers, which see only prompts), estimated from the
     /// month's readers. Without readers, the pair is (0, ∞).
     pub drift: (f64, f64),
-    /// The estimated spreads.
+    /// The estimated spreads (standard deviations).
     pub spreads: Spreads,
 }
 

@@ -12,10 +12,11 @@ pub struct Spreads {
     pub game: f64,
     /// For planners, the standard deviation of level difficulty within a game.
     pub level: f64,
-    /// The standard deviation of the match effect between a family of planners and a game.
+    /// The standard deviation of the match effect between a family of planners and a game, which states how well the
+    /// game suits the family.
     pub family: f64,
-    /// The standard deviation of the match effect between a planner and a game, beyond the effect of the planner's
-    /// family.
+    /// The standard deviation of the match effect between a planner and a game (how well the game suits the planner),
+    /// beyond the effect of the planner's family.
     pub planner: f64,
     /// The increase in a game's difficulty for readers (players that see only prompts) per logit of its difficulty for
     /// planners.

@@ -13,9 +13,9 @@ pub struct Player {
     pub mode: Option<String>,
     /// The differences between the player's prompts and the default prompts, as sorted flags.
     pub aids: Vec<String>,
-    /// The settings that distinguish the player from other players with the same name, mode and aids. Each
-    /// setting is a phrase such as `temperature 0` or `served by m-2026-08`, and the phrases are sorted. The
-    /// list is empty if there are no such players.
+    /// The settings that distinguish the player from other players with the same name, mode and aids (optional parts of
+    /// the prompt). Each setting is a phrase such as `temperature 0` or `served by m-2026-08`, and the phrases are
+    /// sorted. The list is empty if there are no such players.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<String>,
 }
@@ -31,7 +31,7 @@ impl Player {
         Player { name: name.to_owned(), mode: None, aids: Vec::new(), conditions: Vec::new() }
     }
 
-    /// Creates a model player in a given mode, without aids.
+    /// Creates a model player in a given mode, without aids (optional parts of the prompt).
     pub fn model(name: &str, mode: &str) -> Player {
         Player { mode: Some(mode.to_owned()), ..Player::reference(name) }
     }
@@ -80,7 +80,8 @@ impl Player {
         report::visible(&label).into_owned()
     }
 
-    /// Returns the name with aids and conditions, for tables that show the mode elsewhere.
+    /// Returns the name with aids (optional parts of the prompt) and conditions, for tables that show the mode
+    /// elsewhere.
     pub fn short_label(&self) -> String {
         Player { mode: None, ..self.clone() }.label()
     }

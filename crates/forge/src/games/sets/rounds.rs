@@ -18,7 +18,7 @@ const TRIES_PER_GAME: u32 = 16;
 /// A kernel (hand-written game design) and its record of attempts.
 struct Fared {
     kernel: &'static str,
-    /// The number of attempts since the kernel's last admitted game.
+    /// The number of attempts since the kernel (hand-written design) last yielded an accepted game.
     tries: u32,
 }
 
@@ -34,8 +34,8 @@ pub(crate) struct Turn {
 struct Ledger(Vec<Fared>);
 
 impl Ledger {
-    /// Plans a round. Kernels with the fewest games and attempts come first, and each game has a different scene if
-    /// possible.
+    /// Plans a round. Kernels (hand-written designs) with the fewest games and attempts come first, and each game has a
+    /// different scene (theme) if possible.
     fn plan(&mut self, maker: &Maker<'_>, company: &Company, size: usize, first: u32) -> Vec<Turn> {
         let mut families = company.families.clone();
         let mut scenes = company.scenes.clone();
@@ -55,7 +55,7 @@ impl Ledger {
         turns
     }
 
-    /// Returns the index of the kernel to try next; `None` if there are no kernels.
+    /// Returns the index of the kernel (hand-written design) to try next; `None` if there are no kernels.
     fn next(&self, families: &Families) -> Option<usize> {
         let late = |fared: &Fared| fared.tries + TRIES_PER_GAME * families.games_of(fared.kernel) as u32;
         self.0.iter().enumerate().min_by_key(|(_, fared)| late(fared)).map(|(at, _)| at)
@@ -69,8 +69,8 @@ impl Ledger {
 }
 
 impl Maker<'_> {
-    /// Makes short rounds of attempts on all threads, until there are enough games, or until no kernels or attempts are
-    /// left.
+    /// Makes short rounds of attempts on all threads, until there are enough games, or until no kernels (hand-written
+    /// designs) or attempts are left.
     pub(crate) fn make_in_rounds(&self) -> GameSet {
         let (order, wanted) = (self.order, self.order.count as usize);
         let mut company = Company::default();

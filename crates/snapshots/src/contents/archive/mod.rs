@@ -65,7 +65,7 @@ pub struct Packed {
     pub unpacked: u64,
     /// The size of the file, in bytes.
     pub size: u64,
-    /// The number of papers stored with the release. Papers are not packed.
+    /// The number of papers (documents such as the licence) stored with the release. Papers are not packed.
     pub papers: usize,
 }
 

@@ -66,7 +66,7 @@ fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
         patterns.retain(|pattern| !["scene/", "fiction/"].iter().any(|kind| pattern.starts_with(kind)));
     }
     for (level, witness) in card.levels.iter_mut().zip(&witnesses) {
-        // The level's question is phrased in the names of the original scene, so it is dropped.
+        // The sentence about the level's problem uses the names of the original scene (theme), so it is dropped.
         (level.digest, level.asks) = (witness.level, None);
     }
     (frozen.text, frozen.levels, frozen.witnesses) = (published.text, published.levels, witnesses);

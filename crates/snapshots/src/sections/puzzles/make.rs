@@ -11,7 +11,7 @@ use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
 
-/// The maximum number of renamings to draw in search of one that uses the puzzle's scene.
+/// The maximum number of renamings to draw in search of one that uses the puzzle's scene (theme).
 const FICTIONS: u64 = 400;
 
 /// A request for one puzzle.

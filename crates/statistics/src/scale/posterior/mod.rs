@@ -1,10 +1,10 @@
-//! The mode and the curvature of the model's posterior for given spreads (Laplace's method).
+//! The mode and the curvature of the model's posterior for given standard deviations (Laplace's method).
 //!
 //! The effects of different games interact only through a few parameters that all games share. Therefore, each step
 //! costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
 //!
-//! Game effects are measured in standard deviations, so that their prior is standard normal, and the spreads
-//! are part of the loadings. The model therefore stays well-defined as a spread approaches zero.
+//! Game effects are measured in standard deviations, so that their prior is standard normal, and the spreads are part
+//! of the loadings. The model therefore stays well-defined as a spread approaches zero.
 
 mod functional;
 mod slope;
@@ -60,9 +60,9 @@ struct Layout {
     /// effects of the levels follow. If no readers played, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The positions of two match effects per examinee (reference player): the family's effect, and the examinee's
-    /// additional effect. An examinee that is the only member of its family has only the family's effect. A reader (a
-    /// player that sees only prompts) has only the additional effect.
+    /// The positions of two match effects per examinee (reference player), which state how well the game suits it: the
+    /// family's effect, and the examinee's additional effect. An examinee that is the only member of its family has
+    /// only the family's effect. A reader (a player that sees only prompts) has only the additional effect.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 

@@ -1,6 +1,6 @@
-//! The derivatives of the marginal likelihood with respect to the parameters of the spreads. Each derivative requires
-//! one pass over the results. The dependence of the modes on the spreads is handled by the adjoint method, which
-//! solves one linear system for all parameters.
+//! The derivatives of the marginal likelihood with respect to the parameters of the spreads (standard deviations). Each
+//! derivative requires one pass over the results. The dependence of the modes on the spreads is handled by the adjoint
+//! method, which solves one linear system for all parameters.
 
 use super::{Model, Posterior};
 use crate::scale::logistic::logistic;
@@ -20,8 +20,9 @@ struct Place {
 }
 
 impl Model<'_> {
-    /// Returns the derivatives of the marginal likelihood with respect to the parameters of the spreads. They are
-    /// evaluated at a mode of a model with unknown abilities. Cost: about one step towards the mode.
+    /// Returns the derivatives of the marginal likelihood with respect to the parameters of the spreads (standard
+    /// deviations). They are evaluated at a mode of a model with unknown abilities. Cost: about one step towards the
+    /// mode.
     pub(in crate::scale) fn slope(&self, spreads: &Spreads, posterior: &Posterior) -> Vec<f64> {
         let shared = &posterior.modes.shared;
         let mut pull = DVector::<f64>::zeros(shared.len());
