@@ -1,4 +1,4 @@
-//! The genome of an invented game: mechanics, a partition of their ports, numbers and texts.
+//! The genome of an invented game: mechanics, a partition of their ports (open roles) into types, numbers and texts.
 
 use super::emit;
 use super::fiction::Fiction;
@@ -18,7 +18,7 @@ use itertools::Itertools;
 pub struct Invention {
     /// The mechanics. The last one is the ending, which states how the game is won.
     pub(super) mechanics: Vec<&'static Mechanic>,
-    /// The type of each port, in the order of [`ports`].
+    /// The index of the type that fills each port (open role of a mechanic), in the order of [`ports`].
     pub(super) partition: Vec<u8>,
     /// The values of each mechanic's numeric parameters.
     pub(super) values: Vec<Vec<u32>>,
@@ -43,7 +43,8 @@ pub struct Invented {
     pub own_types: Vec<Vec<String>>,
 }
 
-/// The maximum number of rules that follow from bodies but never apply. Games with more such rules are rejected.
+/// The maximum number of rules that follow from the bodies (the physical nature) of types but never apply. Games with
+/// more such rules are rejected.
 const MOST_IDLE: usize = 8;
 /// The tick limit of an invention whose wins are not yet known.
 const LONG: u32 = 399;
@@ -81,7 +82,8 @@ impl Invention {
         self.types().map_or(0, |types| soundness::tension(&self.mechanics, &types))
     }
 
-    /// Returns the types that result from merging ports; `None` if some type has no body that fits all of its ports.
+    /// Returns the types that result from merging ports (open roles of mechanics); `None` if some type has no body that
+    /// fits all of its ports.
     pub(super) fn types(&self) -> Option<Vec<Merged>> {
         merged(&self.mechanics, &self.partition)
     }
@@ -194,7 +196,7 @@ fn interactions(mechanic: usize, written: &emit::Written) -> Vec<usize> {
     own.map(|(at, _)| at).collect()
 }
 
-/// Numbers a partition's classes in the order of their first ports.
+/// Numbers a partition's classes in the order of their first ports (open roles of mechanics).
 pub(super) fn normal(partition: &[u8]) -> Vec<u8> {
     let mut seen: Vec<u8> = Vec::new();
     let number = |class: &u8| {
@@ -207,7 +209,7 @@ pub(super) fn normal(partition: &[u8]) -> Vec<u8> {
     partition.iter().map(number).collect()
 }
 
-/// Returns the partition that does not merge any ports.
+/// Returns the partition in which each port (open role of a mechanic) has its own type.
 pub(super) fn apart(mechanics: &[&'static Mechanic]) -> Vec<u8> {
     (0..=u8::MAX).take(ports(mechanics).len()).collect()
 }

@@ -55,7 +55,7 @@ impl Written {
     }
 }
 
-/// Returns the internal name of the type that fills the given class of ports.
+/// Returns the internal name of the type that fills the given class of merged ports (open roles of mechanics).
 pub(in crate::invention) fn name(class: usize) -> String {
     format!("type{class}")
 }
