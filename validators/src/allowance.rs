@@ -36,8 +36,8 @@ impl Watch for WorkCounter {
 }
 
 impl Allowance {
-    /// Returns the allowance for the given levels. The allowance is smaller if the ticks on any level are unusually
-    /// expensive. Costs a few ticks on each level.
+    /// Returns the allowance (the call budgets of the criteria) for the given levels. It is smaller if the ticks on any
+    /// level are unusually expensive. Costs a few ticks on each level.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
         let weight_of = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));
@@ -78,7 +78,7 @@ pub enum Effort {
 /// The criteria, with their judges' budgets for the given levels.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
-    /// The criteria. For numbers that the allowance limits, use the methods instead of this field.
+    /// The criteria. For numbers that the allowance (the call budget) limits, use the methods instead of this field.
     pub(crate) criteria: &'a CheckedCriteria,
     allowance: Option<Allowance>,
     is_sequential: bool,

@@ -36,7 +36,7 @@ kinds! {
     CollectAndAvoid "collect-and-avoid" "Harvest Hoard Gathering";
     /// Games in which the player finds a key and opens the lock.
     KeyAndDoor "key-and-door" "Secret Lock Key";
-    /// Games in which the player shoots or strikes all foes.
+    /// Games in which the player shoots or strikes all enemies.
     Shooter "shooter" "Hunt Stand Battle";
     /// Games in which the player pushes objects onto their targets.
     BoxPuzzle "box-puzzle" "Puzzle Labour Shift";

@@ -20,8 +20,8 @@ enum End {
 pub struct PushRules {
     /// The destination for each kind of object.
     ends: [Option<End>; 2],
-    /// `true` if objects of one kind cannot be pushed over the other kind's drains. Objects can never be pushed over
-    /// the other kind's pits and mats.
+    /// `true` if objects of one kind cannot be pushed over the drains of the other kind. A drain is a target into which
+    /// objects disappear. Objects can never be pushed over the other kind's pits and mats.
     exclusive: bool,
     /// `true` if there are sills: cells that the avatar can enter and objects cannot.
     has_sills: bool,
@@ -89,21 +89,22 @@ impl PushRules {
 
     /// The number of ticks that a randomly wandering sprite takes to move one cell.
     pub(crate) const COOLDOWN: usize = 3;
-    /// The number of ticks that the spark takes to burn one cell of fuse.
+    /// The number of ticks that the spark takes to burn one cell of the fuse, which limits the time.
     pub(crate) const BURN: usize = 25;
 
     /// The floor character in levels of [`PushRules::game`].
     pub const FLOOR: char = '.';
     /// The level character of the deadly sprites that wander at random.
     pub const STRAY: char = 'y';
-    /// The characters of the spark, the fuse and the keg, which occur only together with wandering deadly sprites.
+    /// The characters of the spark, the fuse and the keg, which limit the time. They occur only together with wandering
+    /// deadly sprites.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 'z', fuse: 'n', keg: 'k', wall: PushRules::WALL };
     /// The wall character.
     pub(crate) const WALL: char = 'w';
     /// The avatar character.
     pub(crate) const AVATAR: char = 'A';
-    /// The sill character.
+    /// The level character of sills, which the avatar can enter and objects cannot.
     pub(crate) const SILL: char = 's';
     /// The characters of pushable objects, by kind.
     pub(crate) const THINGS: [char; 2] = ['c', 'b'];

@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// The rules of a yard, in which the avatar carries parcels past moving carts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct YardRules {
-    /// The number of kinds of parcels, each with its own depot. The maximum is [`YardRules::KINDS`].
+    /// The number of kinds of parcels, each with its own depot (destination). The maximum is [`YardRules::KINDS`].
     kinds: usize,
     /// `true` if there are points: signs that reverse their direction whenever a cart has followed them.
     has_points: bool,
@@ -46,12 +46,12 @@ impl YardRules {
     pub(crate) const STRAY: char = 'y';
     /// The parcel characters, by kind.
     pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
-    /// The depot characters, by kind.
+    /// The characters of the depots (destinations of parcels), by kind.
     pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
-    /// The characters of the spark, the fuse and the keg.
+    /// The characters of the spark, the fuse and the keg, which limit the time.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 's', fuse: 'n', keg: 'k', wall: YardRules::WALL };
-    /// The number of ticks that the spark takes to burn one cell of fuse.
+    /// The number of ticks that the spark takes to burn one cell of the fuse, which limits the time.
     pub(crate) const BURN: usize = 14;
 
     /// The number of ticks that a randomly wandering sprite takes to move one cell.

@@ -101,7 +101,7 @@ struct Actors<'a> {
     moves: Vec<bool>,
     /// For each type, `true` if it is self-moving or created by a self-moving type.
     foes: Vec<bool>,
-    /// `true` if contact with at least one type of foe is harmful.
+    /// `true` if contact with at least one self-moving type, or with a type that it creates, is harmful.
     deadly: bool,
 }
 
@@ -116,7 +116,7 @@ struct Watched {
     crossed: bool,
     /// `true` if a self-moving sprite came next to the avatar.
     near: bool,
-    /// `true` if the avatar met a foe in the last tick.
+    /// `true` if the avatar met a self-moving sprite, or a sprite created by one, in the last tick.
     last: bool,
 }
 
@@ -188,7 +188,7 @@ fn next_to((x, y): (i32, i32), (u, v): (i32, i32)) -> bool {
     (x - u).abs() + (y - v).abs() <= 1
 }
 
-/// A watcher that detects the avatar's contacts with foes.
+/// A watcher that detects the avatar's contacts with self-moving sprites, and with sprites that they create.
 struct Meetings<'a> {
     actors: &'a Actors<'a>,
     any: bool,

@@ -52,7 +52,7 @@ pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
 type PlayerOf = Box<dyn Fn(&str) -> Contestant + Sync>;
 
 impl ScalePlayer {
-    /// Returns the reference player as an entrant in evaluation results.
+    /// Returns the reference player in the form in which evaluation results describe their player.
     pub fn entrant(&self) -> Entrant {
         let mut details = json!({ "examinee": self.name, "family": self.family, "player": self.player });
         // This field distinguishes planners from players that see only prompts, as it does for planners outside the

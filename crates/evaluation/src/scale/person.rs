@@ -13,14 +13,14 @@ const LEAST_CORRELATION: f64 = 0.5;
 /// such players. A single anchor would not show how much it has in common with them.
 const ANCHORS: u64 = 2;
 
-/// A person's abilities, one per release.
+/// The abilities of a person (a player placed on the scale), one per release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PersonAbility {
-    /// The person's name.
+    /// The name of the person (the player placed on the scale).
     pub player: String,
     /// `true` if the person is a reader, which is a player that sees only prompts.
     pub is_reader: bool,
-    /// The abilities on the person's releases, in the order of the scale.
+    /// The abilities on the releases that the person (player) has played, in the order of the scale.
     pub months: Vec<MonthAbility>,
     /// The number of distinct episodes on levels missing from the scale.
     pub unknown: u64,
@@ -30,7 +30,7 @@ pub struct PersonAbility {
     pub left_out: BTreeMap<String, u64>,
 }
 
-/// A person's ability, estimated from one release.
+/// The ability of a person (a player placed on the scale), estimated from one release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MonthAbility {
     /// The release's name.
@@ -47,7 +47,7 @@ pub struct MonthAbility {
     pub is_bounded: [bool; 2],
     /// The total standard error of the ability, and its components.
     pub error: Option<ErrorParts>,
-    /// The standard deviation of the person's mismatches with games.
+    /// The standard deviation of the effects of how well or badly single games suit the person (player).
     pub mismatch_sd: Option<f64>,
     /// The reason why the ability could not be estimated, if any.
     pub refusal: Option<Refusal>,
@@ -85,7 +85,7 @@ pub enum Refusal {
     },
 }
 
-/// Returns the abilities of the persons on each of their releases.
+/// Returns the abilities of the persons (players) on each of their releases.
 pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbility> {
     persons.iter().map(|person| of_person(scale, person)).collect()
 }

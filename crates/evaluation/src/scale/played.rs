@@ -1,4 +1,5 @@
-//! Reads persons' results by level from results folders. Identical episodes count once.
+//! Reads the results of persons (players to be placed on a scale) by level from results folders. Identical episodes
+//! count once.
 
 use crate::error::EvaluationError;
 use crate::metrics::EpisodeMetrics;
@@ -12,10 +13,10 @@ use statistics::scale::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// A person's results, by level.
+/// The results of a person (a player to be placed on a scale), by level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PersonPlays {
-    /// The person who played the episodes.
+    /// The person (player with its settings) who played the episodes.
     pub player: Player,
     /// The person's dimension. Players that see the state are planners, and players that see only prompts are readers.
     pub dimension: Dimension,
@@ -23,7 +24,7 @@ pub struct PersonPlays {
     /// scale. The key lists the differing settings, such as `--commit 3`. `levels` does not include these
     /// episodes.
     pub left_out: BTreeMap<String, u64>,
-    /// The versions of the suite that evaluated the person, by game digest.
+    /// The versions of the suite that evaluated the person (player), by game digest.
     pub suites: BTreeMap<Digest, BTreeSet<String>>,
     /// The number of wins and the number of distinct episodes, by game digest and level digest.
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,

@@ -17,7 +17,7 @@ pub(super) struct Events {
     /// The number of supplies that the win leaves in place. Supplies are sprites to be pushed, and resources that can
     /// be held.
     pub(super) spare: usize,
-    /// The number of supplies at the start.
+    /// The number of supplies (sprites to push and resources to collect) at the start.
     pub(super) supplies: usize,
     /// The longest stretch of the win in which no interaction of `firsts` is executed, as a fraction of the win's
     /// ticks.

@@ -18,8 +18,8 @@ use engine::{Action, Analysis, Game, Level, SpriteType};
 
 /// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;
-/// The number of additional boards to try in order to meet the optional requirements: the fraction of occupied cells,
-/// companions as in the examples, and a level that is not trivial.
+/// The number of additional boards to try in order to meet the optional requirements. These are the fraction of
+/// occupied cells, types that stand next to each other as in the examples, and a level that is not trivial.
 const COVERS: u64 = 6;
 /// The maximum total number of cells on all tried boards. Large boards take longer.
 const PATIENCE: u64 = 2600;

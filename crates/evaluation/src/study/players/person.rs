@@ -8,7 +8,7 @@ use itertools::Itertools;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One person's episodes in a results folder.
+/// The episodes of one person (a player with its settings) in a results folder.
 pub(crate) struct PersonResults {
     player: Player,
     /// All settings that determine requests and answers, by their JSON path (for example,
@@ -33,7 +33,7 @@ impl PersonResults {
     ) -> Vec<PersonResults> {
         let mut facts = BTreeMap::new();
         flatten("", &entrant.details, &mut facts);
-        // The same model on a different server counts as the same person.
+        // The same model on a different server counts as the same person (player).
         facts.retain(|path, _| path != "model.server" && !path.starts_with("model.server."));
         if let Some(surface) = surface {
             facts.insert(TWIN.to_owned(), surface.to_owned());

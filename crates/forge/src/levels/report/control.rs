@@ -6,8 +6,8 @@ use report::{Section, Share, Table, TableCell, Value};
 use serde::Serialize;
 use validators::Difficulty;
 
-/// The minimum fraction of levels with a label in an unconstrained pool. Below this fraction, the game counts as unable
-/// to express the label.
+/// The minimum fraction of levels with a label among levels without a requested difficulty. Below this fraction, the
+/// game counts as unable to express the label.
 const EXPRESSIBLE: f64 = 0.05;
 
 /// The index of the requested label and the index of the measured label.
@@ -20,9 +20,11 @@ struct Hits {
     exact: Share,
     /// The fraction of levels with the requested or a neighbouring label.
     within_one: Share,
-    /// The expected value of `exact` if each level were picked from the pool at random; `None` without a pool.
+    /// The expected value of `exact` if each level were picked at random from the pool, which contains levels without a
+    /// requested difficulty. `None` without a pool.
     random_exact: Option<f64>,
-    /// The expected value of `within_one` if each level were picked from the pool at random; `None` without a pool.
+    /// The expected value of `within_one` if each level were picked at random from the pool, which contains levels
+    /// without a requested difficulty. `None` without a pool.
     random_within_one: Option<f64>,
 }
 

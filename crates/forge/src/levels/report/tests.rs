@@ -168,7 +168,8 @@ fn asked_labels_stand_beside_random_picking() {
     assert_eq!(control["expressible"], json!([Difficulty::Easy, Difficulty::Medium, Difficulty::VeryHard]));
     let all = &control["all"];
     assert_eq!((counts(&all["exact"]), counts(&all["within_one"])[0]), ([1, 3], 3));
-    // In the pool, 4, 2, 1 and 1 levels have the label, and 3, 3 and 1 levels have the label or a neighbouring one.
+    // In the pool of levels without a requested difficulty, 4, 2, 1 and 1 levels have the label, and 3, 3 and 1 levels
+    // have the label or a neighbouring one.
     let close = |key: &str, expect: f64| (all[key].as_f64().unwrap() - expect).abs() < 1e-12;
     assert!(close("random_exact", 1.0 / 3.0) && close("random_within_one", 7.0 / 12.0));
     let asked = report.set.tables.iter().find(|table| table.id == "asked").unwrap();

@@ -95,8 +95,8 @@ impl Builder<'_> {
         })
     }
 
-    /// Returns the weight of a cell according to its footing. If the avatar falls, most sprites stand on the ground,
-    /// but goods may hang in the air.
+    /// Returns the weight of a cell according to what is below it. If the avatar falls, most sprites stand on the
+    /// ground, but goods may hang in the air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
             _ if !self.avatar_falls() => 1,
@@ -346,12 +346,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Places a key in front of the gates that it opens, in zone 0 or behind a gate of a different kind. Returns the
-    /// cell.
+    /// Places a key in front of the gates that it opens, in the part of the board without gates (zone 0), or behind a
+    /// gate of a different kind. Returns the cell.
     fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
-        // The zones behind the gates that this key opens. Zones are numbered in the order of placement.
+        // The zones (parts of the board) behind the gates that this key opens. Zones are numbered in the order of
+        // placement.
         let own = self.log.iter().filter_map(|&(cell, stype)| {
             let opened = self.lock_of(stype)?.givers.iter().any(|(key, _)| *key == giver);
             (opened && self.role(stype) == Role::Gate).then_some(self.board.zone[cell])

@@ -18,8 +18,8 @@ base::with_defaults! {
     pub struct StrayConfig {
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
-        /// The minimum and maximum number of rows, including the row of the fuse. Without that row, a board can have at
-        /// most 128 cells.
+        /// The minimum and maximum number of rows, including the row of the fuse that limits the time. Without that
+        /// row, a board can have at most 128 cells.
         pub rows: (usize, usize) = (11, 12),
         /// The range of win lengths, in actions, on the same board without wandering sprites. The upper end is
         /// exclusive.
@@ -41,13 +41,13 @@ base::with_defaults! {
 const LEAST_SIDE: usize = 7;
 /// The fraction of the inner cells that are walls.
 const WALLS: f64 = 0.08;
-/// The fraction of the inner cells that are sills, for rules with sills.
+/// The fraction of the inner cells that are sills (cells that objects cannot enter), for rules with sills.
 const SILLS: f64 = 0.05;
 /// The approximate number of actions per pushed object.
 const ACTIONS_EACH: usize = 15;
 /// The minimum number of inner cells per pushed object, which limits the number of objects.
 const ROOM: usize = 8;
-/// The number of actions in a win per spare action that the fuse allows.
+/// The number of actions in a win per spare action that the fuse (the time limit) allows.
 const SPARE: usize = 2;
 /// The minimum distance between wandering sprites and the avatar at the start.
 const AWAY: usize = 4;
@@ -69,7 +69,7 @@ pub struct StrayLevel {
     calm: Level,
     /// The cells of the wandering sprites.
     cells: Vec<usize>,
-    /// The length of the fuse in cells, including the keg.
+    /// The length of the fuse (the time limit) in cells, including the keg at its end.
     fuse: usize,
 }
 
@@ -164,7 +164,7 @@ impl StrayLevels {
         for thing in 0..things {
             let kind = thing % kinds;
             floor_plan.counts[kind] += 1;
-            // All things of a kind disappear into the same drain.
+            // All objects of a kind disappear into the same drain (a target that remains).
             if self.rules.destinations[kind] != Destination::Sink || thing < kinds {
                 floor_plan.targets[kind] |= bit(free.pop()?);
             }

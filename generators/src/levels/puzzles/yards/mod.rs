@@ -19,7 +19,7 @@ base::with_defaults! {
     pub struct YardConfig {
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (11, 12),
-        /// The minimum and maximum number of rows, including the fuse row.
+        /// The minimum and maximum number of rows, including the row of the fuse that limits the time.
         pub rows: (usize, usize) = (11, 12),
         /// The range of the number of key presses in a fastest win. The upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
@@ -40,7 +40,8 @@ base::with_defaults! {
     }
 }
 
-/// The minimum side length of a board, including the fuse row. Smaller boards have no room for tracks.
+/// The minimum side length of a board, including the row of the fuse (the time limit). Smaller boards have no room for
+/// tracks.
 const LEAST_SIDE: usize = 6;
 /// The number of inner cells on a board of typical size, which gets the configured number of carts.
 const USUAL: f64 = 80.0;
@@ -104,7 +105,7 @@ impl YardConfig {
 
     /// Turns a yard into a level, if it meets the target.
     fn finish(&self, mut yard: Yard, timetable: &Timetable, sampler: &mut Sampler) -> Option<YardLevel> {
-        // The limit set by the longest fuse.
+        // The time limit set by the longest fuse.
         let most = YardRules::BURN * (yard.grid.columns - 1) - 1;
         let (ways, cells) = timetable.fastest(&yard, most)?;
         let decisions = ways.iter().flatten().count();
@@ -129,7 +130,7 @@ impl YardConfig {
     fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
         let inner = (grid.columns - 2) * (grid.rows - 2);
         let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;
-        // If there are more kinds of depots, the avatar takes fewer steps without a load.
+        // If there are more kinds of depots (destinations of parcels), the avatar takes fewer steps without a load.
         let steps = self.decisions.0.max(8) * (2 + rules.kinds()) / 3;
         // Parcels and their depots are about half of the board's perimeter apart.
         let way = grid.columns + grid.rows - 6;

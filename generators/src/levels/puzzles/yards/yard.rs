@@ -69,7 +69,7 @@ pub(super) struct Yard {
     pub(super) start: usize,
     /// The cell and the kind of each parcel.
     pub(super) parcels: Vec<(usize, usize)>,
-    /// The cells of depots, by kind.
+    /// The cells of the depots (destinations of parcels), by kind.
     pub(super) depots: Vec<usize>,
     /// The cells of the wandering deadly sprites.
     pub(super) strays: Vec<usize>,

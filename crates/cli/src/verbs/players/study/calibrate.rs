@@ -262,7 +262,7 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
     Ok(())
 }
 
-/// Returns the episodes played by the persons with the given names on a release's levels.
+/// Returns the episodes played by the persons (players) with the given names on a release's levels.
 fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<GamePlays> {
     let of_game = |game: &SubjectEntry| {
         let mut found = GamePlays { levels: game.levels.len(), plays: Vec::new() };
