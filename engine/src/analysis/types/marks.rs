@@ -61,7 +61,8 @@ pub(crate) struct Harms<'a> {
     pub(crate) source: &'a [bool],
 }
 
-/// Computes the [`Marks`] of every type. Cost: O(interactions × relatives).
+/// Computes the [`Marks`] of every type, which are flags derived from its interactions. Cost: O(interactions ×
+/// relatives).
 pub(crate) fn marks(
     rules: &Rules,
     encounters: &[Encounter],
