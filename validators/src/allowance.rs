@@ -60,7 +60,7 @@ impl Allowance {
     }
 }
 
-/// The effort that a panel spends on judging.
+/// The effort that a panel of judges spends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
     /// All episodes and searches that the criteria specify. Used for reports.

@@ -195,7 +195,7 @@ impl Panel {
     }
 }
 
-/// A subject for a [`Panel`].
+/// A subject for a [`Panel`] of judges: a level or a game.
 pub trait Subject: Sized + sealed::Sealed {
     /// The findings about the subject.
     type Findings;

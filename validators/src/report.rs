@@ -1,4 +1,4 @@
-//! A panel's findings.
+//! The findings of a panel of judges.
 
 use crate::criterion::Criterion;
 use crate::measures::Ladder;

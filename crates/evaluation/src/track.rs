@@ -4,7 +4,8 @@ use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 use std::fmt;
 
 base::named_enum! {
-    /// A track, which determines what players learn about a game ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
+    /// A track: a bundle of prompt settings, which determines what players learn about a game
+    /// ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
     pub enum Track {
         /// The default prompts, with the rules in English and the game's own names.
         Told = "told",
@@ -19,8 +20,8 @@ base::named_enum! {
 }
 
 impl Track {
-    /// Returns the track's version. The version is incremented whenever the track's settings or its own
-    /// prompt texts change.
+    /// Returns the version of the track (bundle of prompt settings). The version is incremented whenever the track's
+    /// settings or its own prompt texts change.
     pub const fn version(self) -> u32 {
         match self {
             Track::Told | Track::Masked | Track::Discover | Track::Vision => 1,

@@ -119,7 +119,7 @@ fn players_are_placed_or_refused() {
     play("reflex", "first-ice", "reader");
     let refused = run(folder, &["study", "scale", "reader", "--scale", "second/scale.json"], 1);
     assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
-    // The scale has a different commitment, track and step limit.
+    // The scale has a different number of actions per decision, different prompt settings and a different step limit.
     let settings = [
         &["--commit", "3", "--max-steps", "40"],
         &["--track", "masked", "--max-steps", "40"],

@@ -1,4 +1,5 @@
-//! Tests of sealed releases. The public part reveals no secret, and the revealed part matches the commitment.
+//! Tests of sealed releases, whose seed and witnesses are withheld. The public part reveals no secret, and the revealed
+//! part matches the commitment.
 
 use crate::arcade::{commit, copy_tree, files, run, sweeping, text};
 use base::Digest;

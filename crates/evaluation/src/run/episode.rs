@@ -29,7 +29,7 @@ pub struct Task<'a> {
     pub max_steps: u64,
     /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
-    /// The track with its version, if any.
+    /// The track (bundle of prompt settings) with its version, if any.
     pub track: Option<&'a str>,
     /// The level's position in a series, or `None` for a level played alone.
     pub series: Option<SeriesPlace>,

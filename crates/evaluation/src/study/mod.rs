@@ -264,8 +264,8 @@ impl Study {
         }
     }
 
-    /// Returns the players that are included in figures over several players: those on the first player's
-    /// track, and the baselines that read no prompts.
+    /// Returns the players that are included in figures over several players: the players with the same track (bundle
+    /// of prompt settings) as the first player, and the baselines that read no prompts.
     pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
         let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());
         let first = first.or(self.players.first());

@@ -90,7 +90,7 @@ impl Goal {
     }
 }
 
-/// The terminations' demands on the player. Each list is sorted by type.
+/// The requirements that the terminations impose on the player. Each list is sorted by type.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aims {
     /// Types whose sprites must be removed for a win, either entirely or down to a small number.
@@ -185,7 +185,7 @@ impl Analysis {
         &self.goals
     }
 
-    /// Returns the terminations' demands on the player.
+    /// Returns the requirements that the terminations impose on the player.
     pub fn aims(&self) -> &Aims {
         &self.aims
     }

@@ -197,7 +197,8 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// Returns the first error. Examples are errors in the format, in a number or in a map, and a slot without a level.
+    /// Returns the first error. Examples are errors in the format, in a number or in a map, and a slot (position in the
+    /// sequence of levels) without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
@@ -292,7 +293,7 @@ impl Kernel {
         Ok(kernel)
     }
 
-    /// Checks that every slot has a level, and that maps and pieces can be drawn.
+    /// Checks that every slot (position in the sequence of levels) has a level, and that maps and pieces can be drawn.
     fn check(&self) -> Result<(), String> {
         for slot in Slot::ALL {
             if !self.levels.iter().any(|level| level.slot == slot) {

@@ -13,7 +13,8 @@ use std::collections::BTreeMap;
 const RESAMPLES: usize = 1000;
 
 base::named_enum! {
-    /// The kind of games on which a horizon is measured, according to what a player must foresee.
+    /// The kind of games on which a horizon is measured, according to what a player must foresee. A horizon is the
+    /// number of actions per decision at which a player still wins half of its episodes.
     pub enum Foresight {
         /// Deterministic games, in which the future follows from the rules.
         Exact = "deterministic",
@@ -30,11 +31,12 @@ base::named_enum! {
 pub struct HorizonRow {
     /// The player, without its commitment (its number of actions per decision).
     pub player: Player,
-    /// The kind of games on which the horizon is measured.
+    /// The kind of games on which the horizon (the longest successful number of actions per decision) is measured.
     pub games: Foresight,
     /// The win rates, sorted by ascending commitment (number of actions per decision).
     pub rates: Vec<CommitmentRate>,
-    /// The horizon in ticks, with its interval over games.
+    /// The horizon in ticks, with its interval over games. It is the number of actions per decision at which half of
+    /// the episodes are won.
     pub horizon: Option<Estimate>,
     /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest effective
     /// commitment (number of actions per decision), but at least one tick. The highest is four times the largest
@@ -57,13 +59,13 @@ pub struct CommitmentRate {
 }
 
 impl HorizonRow {
-    /// Formats the horizon, such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
-    /// as `–`.
+    /// Formats the horizon (a number of ticks), such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is
+    /// formatted as `–`.
     pub fn told_value(&self) -> String {
         self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
     }
 
-    /// Formats the interval of the horizon, or a single bound if both ends are equal.
+    /// Formats the interval of the horizon (a number of ticks), or a single bound if both ends are equal.
     pub fn told_interval(&self) -> String {
         self.horizon.map_or(String::new(), |found| {
             let [low, high] = [found.low, found.high].map(|end| self.bounded(end));
@@ -189,7 +191,7 @@ fn row(
     HorizonRow { player, games, rates: rates.collect(), horizon, range }
 }
 
-/// Returns the horizons table, or `None` if no player has several commitments.
+/// Returns the table of horizons, or `None` if no player has results for several numbers of actions per decision.
 pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     if study.horizons.is_empty() {
         return None;

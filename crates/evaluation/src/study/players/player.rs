@@ -49,14 +49,14 @@ impl Player {
         self.mode.is_none() && !examined
     }
 
-    /// Returns the track with its version, such as `masked@1`. Returns `None` for players with custom
-    /// prompts, and for players that read no prompts.
+    /// Returns the track (bundle of prompt settings) with its version, such as `masked@1`. Returns `None` for players
+    /// with custom prompts, and for players that read no prompts.
     pub fn track(&self) -> Option<&str> {
         self.aids.iter().find_map(|aid| aid.strip_prefix(track::AID))
     }
 
-    /// Returns `true` if the results of the two players can be compared: the players are on the same track,
-    /// or one of them is a baseline that reads no prompts.
+    /// Returns `true` if the results of the two players can be compared: the players have the same track (bundle of
+    /// prompt settings), or one of them is a baseline that reads no prompts.
     pub fn is_comparable(&self, other: &Player) -> bool {
         let is_free = |player: &Player| player.track().is_none() && player.is_reference();
         self.track() == other.track() || is_free(self) || is_free(other)

@@ -32,7 +32,7 @@ pub struct GamesSample<'a> {
     pub games: &'a [SurveyedGame],
     /// The named games from which the games in the set should differ; may be empty.
     pub corpus: &'a [(String, Game)],
-    /// The criteria that the panel applied.
+    /// The criteria that the panel of judges applied.
     pub criteria: &'a Criteria,
     /// The cost of generating the games, without the cost of judging them for the report; `None` if the games do not
     /// come from a generator.
