@@ -24,8 +24,8 @@ use std::path::PathBuf;
 /// cannot tell the two apart, so the tests are exact. Does the player win more often on the published games than on
 /// their siblings? Do its episodes begin like the published wins rather than the withheld ones? At most 1% of clean
 /// models are flagged. The tests are valid for models trained before the full reveal (see `arcade docs memory`). An
-/// open release, such as `starter`, makes no such choices and cannot be tested. Without RESULTS, prints what the tests could
-/// detect if every level were played once.
+/// open release, such as `starter`, makes no such choices and cannot be tested. Without RESULTS, prints what the tests
+/// could detect if every level were played once.
 ///
 /// Exit status 0: consistent with not having seen the release, or too few pairs to tell. 1: a player has seen part of
 /// the release. 2: malformed input, or nothing could be tested.
