@@ -57,7 +57,7 @@ pub fn is_fixture(game: &Game, stype: SpriteType) -> bool {
     game.0.fixtures[stype.index()]
 }
 
-/// Returns the number of sprites with their own slot, and the number of fixtures.
+/// Returns the number of sprites with their own slot, and the number of fixtures, which are sprites that never change.
 pub fn stored_sprites(state: &State) -> (usize, usize) {
     (state.world.slot_count(), state.world.fixture_count())
 }

@@ -1,6 +1,6 @@
-//! Writes the game of a kernel file and levels of its course, in a scene or with the kernel's type names:
-//! `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants] [--form=NAME]
-//! [--scene=NAME]`.
+//! Writes the game and the levels of a kernel file (a hand-written design), with a scene's nouns or with the kernel's
+//! type names: `cargo run -p infinite-arcade-generators --example kernel -- FILE.toml FOLDER [SEED] [--variants]
+//! [--form=NAME] [--scene=NAME]`.
 
 use base::Seed;
 use engine::Game;

@@ -1,5 +1,6 @@
 //! Generates pushing puzzles that meet a target, and writes each game with its levels to its own folder. For puzzles
-//! among strays, prints a careful player's win rates by the number of actions between two looks.
+//! among wandering deadly sprites, prints the win rates of a simulated player, by the number of actions between two
+//! looks at the board.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example puzzles -- OUT LEVELS PUSHES ACTIONS SIDE [RULES]...

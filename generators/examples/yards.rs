@@ -1,5 +1,5 @@
-//! Generates yards that meet a target, and writes each game with its levels to its own folder. Prints a careful
-//! player's win rates by the number of actions between two looks.
+//! Generates yards (puzzles about carrying parcels) that meet a target, and writes each game with its levels to its own
+//! folder. Prints the win rates of a simulated player, by the number of actions between two looks at the board.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example yards -- OUT LEVELS LEAST MOST SIDE [RULES]...

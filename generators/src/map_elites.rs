@@ -4,10 +4,11 @@ use crate::breeding::Breeding;
 use crate::{Archive, Axis, Evaluated, Evaluation, Search, Variation};
 use base::{Digest, Sampler, Seed};
 
-/// The minimum size of the tournament among infeasible parents. The tournament grows with the number of pockets,
-/// because pockets retain many candidates that lead nowhere.
+/// The minimum size of the tournament among infeasible parents. The tournament grows with the number of pockets (a
+/// cell's lists of infeasible candidates), because pockets retain many candidates that lead nowhere.
 const TOURNAMENT: usize = 3;
-/// The number of pockets for each additional entrant in the tournament among infeasible parents.
+/// The number of pockets (lists of infeasible candidates) for each additional entrant in the tournament among
+/// infeasible parents.
 const SHARE: usize = 8;
 
 base::with_defaults! {
@@ -155,8 +156,8 @@ fn elite<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated
     archive.elites().nth(at).expect("an index below the length").1
 }
 
-/// Draws an infeasible candidate from an archive with at least one. Prefers the pockets of empty cells next to filled
-/// cells, and otherwise uses any pocket.
+/// Draws an infeasible candidate from an archive with at least one. Prefers cells that have no elite and are next to
+/// cells with an elite, and otherwise uses any cell with infeasible candidates.
 fn infeasible<'c, C>(archive: &'c Archive<C>, sampler: &mut Sampler) -> &'c Evaluated<C> {
     let is_filled = |cell: usize| archive.elite(cell).is_some();
     let at_frontier = |(cell, _): &(usize, &[Evaluated<C>])| {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes a page of generated games, with their dilemmas, the demands of their levels, the figures of the gates, and wins as filmstrips.
+"""Writes a page of generated games, with their dilemmas, the problems that their levels pose, the values measured by the gates (criteria for games), and wins as filmstrips.
 
     arcade generate games --method constructive --count 50 --seed s --out new-games
     cargo xtask side-by-side --gates --ours new-games --rows gates.jsonl
@@ -82,7 +82,7 @@ def main():
 
 
 def told(row):
-    """Formats the results of the gates with their figures, and marks failed gates."""
+    """Formats the results of the gates (criteria for games) with the measured values, and marks failed gates."""
     for gate, answer in row["gates"].items():
         if gate == "winnable":
             continue

@@ -1,4 +1,5 @@
-//! Prints the demands of levels, one line per level, and the levels of each tier.
+//! Prints the measured demands of levels on a player, one line per level, and the levels of each tier (difficulty
+//! class).
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-validators --example demand -- CALLS corpora/*

@@ -36,8 +36,8 @@ impl Watch for WorkCounter {
 }
 
 impl Allowance {
-    /// Returns the allowance for the given levels. The allowance is smaller if the ticks on any level are unusually
-    /// expensive. Costs a few ticks on each level.
+    /// Returns the allowance (the call budgets of the criteria) for the given levels. It is smaller if the ticks on any
+    /// level are unusually expensive. Costs a few ticks on each level.
     pub(crate) fn of<'a>(calls: u64, game: &Game, levels: impl IntoIterator<Item = &'a Level>) -> Allowance {
         let weight_of = |level: &Level| {
             let mut state = game.start(level, Seed::from_text("weigh"));
@@ -60,7 +60,7 @@ impl Allowance {
     }
 }
 
-/// The effort that a panel spends on judging.
+/// The effort that a panel of judges spends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
     /// All episodes and searches that the criteria specify. Used for reports.
@@ -78,7 +78,7 @@ pub enum Effort {
 /// The criteria, with their judges' budgets for the given levels.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
-    /// The criteria. For numbers that the allowance limits, use the methods instead of this field.
+    /// The criteria. For numbers that the allowance (the call budget) limits, use the methods instead of this field.
     pub(crate) criteria: &'a CheckedCriteria,
     allowance: Option<Allowance>,
     is_sequential: bool,
@@ -126,12 +126,12 @@ impl<'a> Setting<'a> {
         PortfolioConfig { budget: self.bounded(self.criteria.budget, [1, 1]), ..self.criteria.search() }
     }
 
-    /// Returns the ladder's players.
+    /// Returns the players of the ladder, which are reference players of increasing strength.
     pub(crate) fn players(&self) -> LadderConfig {
         LadderConfig { calls: self.bounded(self.criteria.ladder_calls, [5, 3]), ..self.criteria.players() }
     }
 
-    /// Returns the number of forward-model calls per ladder episode.
+    /// Returns the number of forward-model calls per episode of a player on the ladder of reference players.
     pub(crate) fn ladder_play_calls(&self) -> u64 {
         self.bounded(u64::MAX, [2, self.criteria.players().round_plays()])
     }

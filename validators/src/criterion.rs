@@ -52,7 +52,8 @@ pub(crate) enum Stage {
     Search,
     /// The criterion examines the win found.
     Win,
-    /// The criterion uses a player ladder, whose players may win even if no search did. Skipped on unwinnable levels.
+    /// The criterion uses a ladder of reference players, which may win even if no search did. Skipped on unwinnable
+    /// levels.
     Ladder,
 }
 
@@ -76,7 +77,7 @@ pub enum Cost {
     Plays,
     /// Searches through the game's states.
     Search,
-    /// Episodes by a ladder of players.
+    /// Episodes by a ladder of reference players of increasing strength.
     Ladder,
 }
 
@@ -100,7 +101,7 @@ macro_rules! define {
             pub const LEVEL: CriterionSet = CriterionSet::of(&[$(Criterion::$level),*]);
             /// The game criteria, except gates.
             pub const GAME: CriterionSet = CriterionSet::of(&[$(Criterion::$game),*]);
-            /// The gates: game criteria that measure what people notice in play.
+            /// The gates: criteria for whole games that measure what people notice in play.
             pub const GATES: CriterionSet = CriterionSet::of(&[$(Criterion::$gate),*]);
         }
 

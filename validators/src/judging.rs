@@ -1,4 +1,4 @@
-//! Requests to a panel.
+//! Requests to a panel of judges.
 
 use crate::report::{Judgement, Report};
 use agents::Stopped;

@@ -170,7 +170,7 @@ impl Panel {
             }
             is_over |= is_start && is_over_at_once(game, level, seed.seed());
         }
-        // A ladder player may win a level that the search did not.
+        // A reference player on the ladder may win a level that the search did not.
         if let (None, Some(won)) = (&report.witness, report.shortest_win()) {
             report.witness = Some(won);
             let searched = report.clone();
@@ -195,7 +195,7 @@ impl Panel {
     }
 }
 
-/// A subject for a [`Panel`].
+/// A subject for a [`Panel`] of judges: a level or a game.
 pub trait Subject: Sized + sealed::Sealed {
     /// The findings about the subject.
     type Findings;

@@ -1,4 +1,4 @@
-//! A panel's findings.
+//! The findings of a panel of judges.
 
 use crate::criterion::Criterion;
 use crate::measures::Ladder;
@@ -47,7 +47,7 @@ impl Report {
         Some(&judgement.finding)
     }
 
-    /// Returns the ladder's results, or `None` if no ladder was played.
+    /// Returns the results of the ladder (reference players of increasing strength), or `None` if no ladder was played.
     pub fn ladder(&self) -> Option<&Ladder> {
         self.judgements.iter().find_map(|judgement| judgement.finding.ladder.as_ref())
     }

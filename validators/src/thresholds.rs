@@ -17,8 +17,8 @@ base::with_defaults! {
     pub struct Criteria {
         /// The criteria to check, in a fixed order from cheapest to most expensive.
         pub ask: CriterionSet = CriterionSet::LEVEL.without(CriterionSet::of(&[Criterion::Skill])),
-        /// The number of forward-model calls per decision of the searching player, and of ladder players whose names do
-        /// not specify a number.
+        /// The number of forward-model calls per decision of the searching player. Players on the ladder whose names do
+        /// not specify a number have the same budget.
         pub decision: u64 = 500,
         /// The total number of forward-model calls to find a win.
         pub budget: u64 = 3_000_000,
@@ -60,7 +60,8 @@ base::with_defaults! {
         pub ladder_plays: u64 = 12,
         /// The total number of forward-model calls by all players after which no further round of episodes begins.
         pub ladder_calls: u64 = 5_000_000,
-        /// The multiple of the witness's ticks (plus 50) after which an episode of the ladder is stopped.
+        /// The limit on the length of an episode by a player on the ladder, as a multiple of the witness's ticks (plus
+        /// 50).
         pub patience: usize = 3,
         /// The minimum difference between the win rates of stronger and weaker players.
         pub skill_wins: f64 = 0.25,
@@ -253,7 +254,7 @@ impl CheckedCriteria {
         CheckedCriteria { criteria: Criteria { gates, ..self.criteria.clone() }, ..self.clone() }
     }
 
-    /// Returns the ladder's players.
+    /// Returns the players of the ladder, which are reference players of increasing strength.
     pub fn players(&self) -> LadderConfig {
         LadderConfig {
             rungs: self.rungs.clone(),

@@ -32,11 +32,12 @@ pub(crate) struct GameCase<'a> {
     pub(crate) analysis: &'a Analysis,
     /// The game's levels, with the episodes played by their validators.
     pub(crate) recording: &'a [Recorded<'a>],
-    /// Each level's ladder results, or `None` for a level on which no ladder was played.
+    /// The results of the ladder (reference players of increasing strength) on each level, or `None` for a level on
+    /// which no ladder was played.
     pub(crate) ladders: &'a [Option<&'a Ladder>],
     /// The rules and types that occur in the recorded episodes.
     pub(crate) usage: &'a Usage,
-    /// The careless players' episodes, shared by the gates.
+    /// The episodes of careless players, which press a random key in some ticks. The gates share these episodes.
     pub(crate) careless: &'a CarelessPlays<'a>,
     /// The source of the validator's own randomness.
     pub(crate) seed: Seed,

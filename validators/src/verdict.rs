@@ -20,7 +20,7 @@ pub struct Finding {
     /// The number of ticks in the shortest win, if it is proven to be the shortest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub optimal: Option<usize>,
-    /// The figure that a gate measured, for tables.
+    /// The value that a gate measured, for tables.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figure: Option<f64>,
     /// The names of the placed types that are not needed to win, if `necessity` was checked.
@@ -29,7 +29,7 @@ pub struct Finding {
     /// The observations, in report order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub evidence: Vec<Evidence>,
-    /// The ladder's results, if a ladder was played.
+    /// The results of the ladder (reference players of increasing strength), if a ladder was played.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
     /// The episodes played, which show the rules that are used in play.
@@ -54,8 +54,8 @@ impl From<Verdict> for Finding {
 }
 
 impl Finding {
-    /// Returns the total number of forward-model calls in measured episodes, in searches, and by a ladder's
-    /// players.
+    /// Returns the total number of forward-model calls in measured episodes, in searches, and by the players on a
+    /// ladder.
     pub fn calls(&self) -> u64 {
         let ladder = self.ladder.iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out));
         let ladder: u64 = ladder.map(|result| result.rate.calls).sum();

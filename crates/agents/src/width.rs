@@ -33,9 +33,9 @@ base::with_defaults! {
         pub horizon: usize = 12,
         /// The weight of a loss, in multiples of the largest gain seen.
         pub loss: f64 = 10.0,
-        /// The value, in points, of reaching a state with an atom that is new in this episode. An atom that was
-        /// present in one earlier tick is worth half as much, one that was present in two earlier ticks a third as
-        /// much, and so on.
+        /// The value, in points, of reaching a state with an atom (a fact about the state) that is new in this episode.
+        /// An atom that was present in one earlier tick is worth half as much, one that was present in two earlier
+        /// ticks a third as much, and so on.
         pub curiosity: f64 = 0.1,
     }
 }
@@ -50,7 +50,7 @@ pub struct Width {
     streams: Streams,
     /// The largest score change in one tick so far, at least 1.
     unit: f64,
-    /// The number of ticks in the episode in which each atom was present.
+    /// The number of ticks in the episode in which each atom (fact about the state) was present.
     #[serde(rename = "been")]
     presence: Option<(Features, Vec<u32>)>,
     /// The rest of the last plan.

@@ -1,11 +1,12 @@
-//! The players that measure a release's marks, constructed in the same way as the players in evaluations.
+//! The reference players whose results a release stores (its *marks*). They are constructed in the same way as the
+//! players in evaluations.
 
 use base::Seed;
 use evaluation::LevelMark;
 use evaluation::reference::{ReferencePlayer, ReferencePlays, SEED};
 use snapshots::marks::{MarkPlayers, Marks, MarksPart, Wins};
 
-/// The players for marks, by the names that `arcade evaluate --player` accepts.
+/// The reference players whose results a release stores, by the names that `arcade evaluate --player` accepts.
 #[derive(Debug)]
 pub(crate) struct Players;
 
@@ -21,7 +22,8 @@ impl MarkPlayers for Players {
     }
 }
 
-/// Returns the marks for the game with the given ID, in the format stored in results.
+/// Returns the stored results of reference players on the game with the given ID, in the format used in results
+/// folders.
 pub(crate) fn of_game(marks: &Marks, id: &str) -> Vec<LevelMark> {
     let levels = marks.games.iter().find(|game| game.id == id).map_or(&[][..], |game| &game.levels);
     let asked = &marks.asked;

@@ -23,8 +23,8 @@ pub(crate) fn metadata(path: &Path) -> Result<Option<Metadata>, Failure> {
     }
 }
 
-/// Returns a release's folder: `place` itself, or its subfolder `public` if `place` contains the two parts of
-/// a sealed release.
+/// Returns a release's folder: `place` itself, or its subfolder `public` if `place` contains the two parts (public and
+/// withheld) of a sealed release.
 pub(crate) fn release(place: PathBuf) -> PathBuf {
     let public = place.join("public");
     match !place.join(MANIFEST_FILE).exists() && public.join(MANIFEST_FILE).is_file() {

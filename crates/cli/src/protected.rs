@@ -1,5 +1,5 @@
-//! Protection of releases against stray output. A file added to a release breaks its verification, or would
-//! be published with the release.
+//! Protection of releases against misplaced output. A file added to a release breaks its verification, or would be
+//! published with the release.
 
 use crate::failure::Failure;
 use crate::shell;

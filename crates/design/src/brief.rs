@@ -19,7 +19,7 @@ pub struct Brief {
     pub levels: usize,
     /// The theme of the games, in the user's words.
     pub theme: Option<String>,
-    /// The minimum tier of each game's last level.
+    /// The minimum tier (difficulty class from 1 to 4) of each game's last level.
     pub tier: Option<Tier>,
     /// The sprite classes, effects, terminations and mechanics that each game must use. A game uses a mechanic if it
     /// uses all keywords of the mechanic.

@@ -67,7 +67,7 @@ pub struct DraftMeasures {
     pub won: usize,
     /// For each criterion, `true` if the game or all of its levels meet it. Empty if the levels do not load.
     pub criteria: BTreeMap<Criterion, bool>,
-    /// The tier of the last level, if a tier is required and a win was found.
+    /// The tier (difficulty class from 1 to 4) of the last level, if a tier is required and a win was found.
     pub tier: Option<Tier>,
 }
 

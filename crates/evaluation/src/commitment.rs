@@ -17,7 +17,7 @@ pub enum Commitment {
 }
 
 impl Commitment {
-    /// The commitment to one action per decision.
+    /// A single action per decision.
     pub const ONE: Commitment = Commitment::Actions(NonZeroU64::MIN);
 
     /// Returns `true` if the player commits to one action per decision.
@@ -33,8 +33,8 @@ impl Commitment {
         }
     }
 
-    /// Returns the commitment in the notation used in results, such as `commit=10`, or `None` for the
-    /// default.
+    /// Returns the number of actions per decision in the notation used in results, such as `commit=10`, or `None` for
+    /// the default.
     pub fn aid(self) -> Option<String> {
         (!self.is_one()).then(|| format!("commit={self}"))
     }

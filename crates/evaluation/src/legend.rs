@@ -27,7 +27,7 @@ pub struct LegendOptions {
     pub shuffled: Option<u64>,
 }
 
-/// The role of a sprite type on the board, from the reader's point of view.
+/// The role of a sprite type on the board, from the player's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryRole {
     /// The sprite that the player controls.

@@ -228,7 +228,7 @@ mod tests {
     fn answers_are_graded() {
         check("KILLS: t3; STOPS: t2; GOES: t1, t2, t4; SCORES: t2, t4.", Ok((15, 15, Some(1.0))));
         check("KILLS: t3\nSTOPS: t2\nGOES: t1, t2, t4\nSCORES: t2, t4", Ok((15, 15, Some(1.0))));
-        // Making the same prediction for all types shows no insight.
+        // The same prediction for all types shows no knowledge of the rules.
         check("KILLS: none\nSTOPS: none\nGOES: none\nSCORES: none", Ok((8, 15, Some(0.0))));
         let all = "t1, t2, t3, t4";
         check(&format!("KILLS: {all}\nSTOPS: {all}\nGOES: {all}\nSCORES: {all}"), Ok((7, 15, Some(0.0))));

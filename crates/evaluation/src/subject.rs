@@ -121,7 +121,7 @@ pub struct SubjectFacts {
 pub struct LevelMark {
     /// The level number.
     pub level: usize,
-    /// The level's tier, from 1 to 4. It measures how far ahead a winner must look.
+    /// The level's tier (difficulty class), from 1 to 4. It measures how far ahead a winner must look.
     pub tier: u8,
     /// The reference player's name.
     pub player: String,

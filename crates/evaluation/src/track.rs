@@ -4,7 +4,8 @@ use crate::prompt::{Encodings, Mode, PromptSettings, PromptStyle, Rules};
 use std::fmt;
 
 base::named_enum! {
-    /// A track, which determines what players learn about a game ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
+    /// A track: a bundle of prompt settings, which determines what players learn about a game
+    /// ([docs/reference/tracks.md](../../../docs/reference/tracks.md)).
     pub enum Track {
         /// The default prompts, with the rules in English and the game's own names.
         Told = "told",
@@ -19,8 +20,8 @@ base::named_enum! {
 }
 
 impl Track {
-    /// Returns the track's version. The version is incremented whenever the track's settings or its own
-    /// prompt texts change.
+    /// Returns the version of the track (bundle of prompt settings). The version is incremented whenever the track's
+    /// settings or its own prompt texts change.
     pub const fn version(self) -> u32 {
         match self {
             Track::Told | Track::Masked | Track::Discover | Track::Vision => 1,
@@ -66,14 +67,14 @@ impl Track {
         format!("{}@{}", self.name(), self.version())
     }
 
-    /// Returns the aid that distinguishes the track's players from those on other tracks, as written in
-    /// results, such as `track=masked@1`.
+    /// Returns the phrase that distinguishes the track's players from those on other tracks, as written in results,
+    /// such as `track=masked@1`.
     pub fn aid(self) -> String {
         format!("{AID}{}", self.id())
     }
 }
 
-/// The prefix of the aid that states a player's track.
+/// The prefix of the phrase that states a player's track.
 pub(crate) const AID: &str = "track=";
 
 impl fmt::Display for Track {

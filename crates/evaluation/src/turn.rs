@@ -65,7 +65,7 @@ pub struct Before<'a> {
     pub reward: f64,
 }
 
-/// An action in a commitment, with its result.
+/// One of the actions of a decision, with its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
     /// The requested action, or [`Action::Nil`] if the player stated too few actions.

@@ -1,7 +1,8 @@
 //! Prints boards of a game, either drawn or found by a search: `boards KERNEL|PATH.vgdl SEED [SLOT] [COUNT] [DIR]`.
 //!
-//! Without a slot, prints compositions as they are drawn, and a table of their similarity. With a slot, searches for
-//! boards, each unlike all earlier boards, and writes them as level files to the folder, if a folder is given.
+//! A slot is a position in a game's sequence of levels. Without a slot, prints compositions as they are drawn, and a
+//! table of their similarity. With a slot, searches for boards, each unlike all earlier boards, and writes them as
+//! level files to the folder, if a folder is given.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

@@ -18,7 +18,8 @@ pub enum Origin {
     Generated {
         /// The generator's name.
         generator: String,
-        /// The kernel, its variants and the scene, each prefixed with its kind, as in `kernel/one-spark`.
+        /// The sources of the game, each prefixed with its kind, as in `kernel/one-spark`: the kernel (a hand-written
+        /// design), its variants, and the scene that supplies the nouns.
         patterns: Vec<String>,
         /// The index of the candidate among the candidates for the game's position in the release, from 0.
         candidate: u32,
@@ -34,27 +35,28 @@ impl Origin {
         }
     }
 
-    /// Returns a generated game's kernel.
+    /// Returns the kernel (hand-written design) from which a game was generated.
     pub fn kernel(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
     }
 
-    /// Returns the form of the kernel from which a game was generated. A form is a variation of a kernel. Returns
-    /// `None` for the unmodified kernel.
+    /// Returns the form of the kernel (hand-written design) from which a game was generated. A form is a variation of a
+    /// kernel. Returns `None` for the unmodified kernel.
     pub fn form(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("form/"))
     }
 
-    /// Returns a generated game's scene.
+    /// Returns the scene (theme) whose nouns a generated game uses.
     pub fn scene(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))
     }
 
-    /// Returns the kernel and variants of a generated game, without duplicates. For games from earlier generators,
-    /// returns all patterns except the theme or scene and the edits made by search and shrinking.
+    /// Returns the kernel (hand-written design) and the variants of a generated game, without duplicates. For games
+    /// from earlier generators, returns all patterns except the theme or scene and the edits made by search and
+    /// shrinking.
     pub fn mechanics(&self) -> BTreeSet<&str> {
         let Origin::Generated { patterns, .. } = self else { return BTreeSet::new() };
         let kept =
@@ -77,7 +79,8 @@ pub struct LevelCard {
     pub rows: usize,
     /// The name of the generator that made the level.
     pub generator: String,
-    /// The level's question to the player as one sentence, if the level belongs to a course.
+    /// A sentence about the problem that the level poses to the player, if the level was made for a position in the
+    /// game.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asks: Option<String>,
     /// The requested difficulty, from 0 to 1.
@@ -100,13 +103,15 @@ pub struct LevelCard {
     pub random: Rate,
     /// The win rate of players that do nothing.
     pub idle: Rate,
-    /// The results of the ladder's players and the difficulty derived from them, if the recipe requests `skill`.
+    /// The results of the ladder, which is a list of reference players of increasing strength, and the difficulty
+    /// derived from them. Present if the recipe requests `skill`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ladder: Option<Ladder>,
-    /// A win's demands on a player, if the recipe requests tiers.
+    /// The measured demands of a win on a player, such as the number of decisions. Present if the recipe requests
+    /// tiers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
-    /// The tier derived from the demand.
+    /// The tier (difficulty class from 1 to 4) derived from the demands.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
 }
@@ -115,7 +120,8 @@ pub struct LevelCard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
-    /// The release's canary. Text that contains the canary should be excluded from training data.
+    /// The release's canary: an identifier that shows whether a text corpus contains the release. Text that contains
+    /// the canary should be excluded from training data.
     pub canary: String,
     /// The game's folder in `games/`.
     pub id: String,

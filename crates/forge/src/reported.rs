@@ -41,8 +41,8 @@ pub(crate) struct PlayerRate {
 }
 
 impl PlayerRate {
-    /// Adds each player's results over several ladders to a section. The ladder players come first, from weakest to
-    /// strongest, followed by the held-out players.
+    /// Adds each player's results over several levels to a section. The players of the ladder come first, from weakest
+    /// to strongest, followed by the held-out players.
     pub(crate) fn add_all<'a>(section: Section, ladders: impl IntoIterator<Item = &'a Ladder>) -> Section {
         let mut players: Vec<PlayerRate> = Vec::new();
         for fared in ladders.into_iter().flat_map(|ladder| ladder.rungs.iter().chain(&ladder.held_out)) {
@@ -63,9 +63,9 @@ impl PlayerRate {
     }
 }
 
-/// Returns Spearman's rank correlation between the players' positions in the ladder and their results. Results are
-/// compared by wins first and then by score. The correlation is 1 if every stronger player does better. Returns `None`
-/// if all players do equally well.
+/// Returns Spearman's rank correlation between the reference players' positions on the ladder (from weak to strong) and
+/// their results. Results are compared by wins first and then by score. The correlation is 1 if every stronger player
+/// does better. Returns `None` if all players do equally well.
 pub(crate) fn in_order(fares: &[(f64, f64)]) -> Option<f64> {
     let worse = |own: &(f64, f64)| fares.iter().filter(|other| *other < own).count() as f64;
     let pairs: Vec<(f64, f64)> = fares.iter().enumerate().map(|(at, own)| (at as f64, worse(own))).collect();

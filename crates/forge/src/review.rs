@@ -177,7 +177,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &str, boards: &mu
     let is_new = |seen: &&Evidence| {
         seen.rule.is_some() || *criterion == Criterion::Winnable || !words.contains(seen.text.as_str())
     };
-    // The table of a ladder contains the same information as its evidence.
+    // The table of the reference players' results contains the same information as the evidence.
     let is_shown =
         |seen: &&Evidence| is_new(seen) && mark != "-" && !(finding.ladder.is_some() && mark == "pass");
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(is_shown).collect();

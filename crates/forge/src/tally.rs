@@ -19,8 +19,8 @@ pub struct Tally {
     pub levels_accepted: u64,
     /// The number of forward-model calls made by all judges.
     pub calls: u64,
-    /// The number of levels that met all criteria except the requested difficulty and were not won by any ladder
-    /// player.
+    /// The number of levels that met all criteria except the requested difficulty and were not won by any player on the
+    /// ladder of reference players.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unbeaten: u64,
     /// The number of rejections by each criterion or generator.
@@ -79,7 +79,7 @@ impl JudgeCost {
     }
 }
 
-/// The name of a quick look in the list of judges.
+/// The name of a quick evaluation in the list of judges.
 const LOOK: &str = "look";
 
 impl Tally {
@@ -112,7 +112,7 @@ impl Tally {
         *self.rejections.entry(why.to_owned()).or_default() += 1;
     }
 
-    /// Counts a quick look made by a search.
+    /// Counts a quick evaluation made by a search.
     pub(crate) fn look(&mut self, is_feasible: bool, calls: u64) {
         self.judge(LOOK, is_feasible, calls);
     }
@@ -192,7 +192,7 @@ impl Tally {
         self.reject(why);
     }
 
-    /// Adds the counts of another tally.
+    /// Adds the counts of another order or position.
     pub fn add(&mut self, other: &Tally) {
         self.games_tried += other.games_tried;
         self.games_accepted += other.games_accepted;

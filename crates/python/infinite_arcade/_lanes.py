@@ -37,7 +37,7 @@ Levels = int | Iterable[int] | None
 
 
 class EpisodeLanes:
-    """Lanes, with the buffers that they write to."""
+    """The environments of a batch (lanes), with the buffers that they write to."""
 
     def __init__(
         self,
@@ -95,7 +95,7 @@ class EpisodeLanes:
         same_step = mode == AutoresetMode.SAME_STEP
         self.last: Board | None = np.zeros_like(self.observations) if same_step else None
         self.flat_last = None if self.last is None else self.last.reshape(-1)
-        #: The statuses of all lanes, if they are observed.
+        #: The statuses of all environments, if they are observed.
         self.status: NDArray[np.float32] | None = None
         if observation == "full":
             self.status = np.zeros((count, len(self.native.status_names)), np.float32)
@@ -120,7 +120,7 @@ class EpisodeLanes:
         return spaces.Dict({"planes": board, "status": status})
 
     def observed(self) -> Any:
-        """Returns the observations of all lanes, in the buffers that the next step overwrites."""
+        """Returns the observations of all environments, in the buffers that the next step overwrites."""
         boards = self.observations.view()
         boards.flags.writeable = False
         if self.status is None:
@@ -131,14 +131,14 @@ class EpisodeLanes:
         return {"planes": boards, "status": status}
 
     def select(self, lane: int, level: int) -> None:
-        """Selects the level of a lane's next episode, by the level's number."""
+        """Selects the level of an environment's next episode, by the level's number."""
         numbers = [level.number for level in self.levels]
         if level not in numbers:
             raise ValueError(f"the environment has the levels {numbers}, not {level}")
         self.native.choose(lane, numbers.index(level))
 
     def frame(self, lane: int, cell: int) -> Board:
-        """Returns the board of a lane as an image. All images have the same size."""
+        """Returns the board of an environment as an image. All images have the same size."""
         columns, rows = self.size
         frame = np.zeros((rows * cell, columns * cell, 3), np.uint8)
         image = State(self.native.state(lane)).rgb(cell)

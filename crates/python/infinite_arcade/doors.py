@@ -148,7 +148,7 @@ def by_vector(games: dict[str, Game], logs: list[Log]) -> Iterator[tuple[str, fl
         own = [(at, log) for at, log in enumerate(logs) if log.key == key]
         game = games[key[0]]
         longest = max(len(log.actions) for _, log in own)
-        # The longest log sets the limit, so that no lane is truncated before the end of its episode.
+        # The longest log sets the limit, so that no environment is truncated before the end of its episode.
         envs = GameVectorEnv(
             game, key[1], num_envs=len(own), max_steps=longest + 1, autoreset_mode=AutoresetMode.NEXT_STEP
         )

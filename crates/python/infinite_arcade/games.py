@@ -351,7 +351,7 @@ class Game:
 
     @property
     def types(self) -> list[str]:
-        """The names of the sprite types that players can see, in the order of the planes."""
+        """The names of the sprite types that players can see, in the order of the planes (one array per type)."""
         return self._native.types
 
     @property

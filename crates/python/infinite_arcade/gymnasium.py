@@ -133,7 +133,7 @@ class GameEnv(gymnasium.Env[Any, np.int64]):
 
     @property
     def planes(self) -> list[str]:
-        """The names of the planes' sprite types."""
+        """The names of the sprite types of the observation planes, which are arrays of cells, one per type."""
         return self._lanes.native.planes
 
     @property
@@ -386,7 +386,7 @@ class GameVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
 
     @property
     def planes(self) -> list[str]:
-        """The names of the planes' sprite types."""
+        """The names of the sprite types of the observation planes, which are arrays of cells, one per type."""
         return self._lanes.native.planes
 
     @property

@@ -1,4 +1,5 @@
-//! A lane, which plays one episode of a game after another, and its observations.
+//! One environment of a batch (a *lane* in the code), which plays one episode of a game after another, and its
+//! observations.
 
 use crate::errors::invalid;
 use crate::game::{Game, Level, OUTCOMES, Rules, outcome_name, seed_of};
@@ -8,17 +9,17 @@ use base::Seed;
 use engine::{Chance, Drawn, Outcome, Planes};
 use pyo3::prelude::*;
 
-/// The text from which the seed of an unseeded lane is derived.
+/// The text from which the seed of an unseeded environment is derived.
 const UNSEEDED: &str = "unseeded";
 
-/// The rule that determines when a lane whose episode has ended starts a new one.
+/// The rule that determines when an environment whose episode has ended starts a new one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Autoreset {
     /// The next step starts a new episode and ignores its action.
     NextStep,
     /// The step that ends an episode also starts the next episode.
     SameStep,
-    /// A lane whose episode has ended stays idle until it is reset.
+    /// An environment whose episode has ended stays idle until it is reset.
     Disabled,
 }
 
@@ -34,7 +35,7 @@ pub(crate) enum Sight {
     Rgb(u32),
 }
 
-/// The data shared by all lanes.
+/// The data shared by all environments.
 pub(crate) struct Setting {
     pub(crate) game: Game,
     pub(crate) levels: Vec<Level>,
@@ -51,7 +52,7 @@ pub(crate) struct Setting {
     pub(crate) autoreset: Autoreset,
 }
 
-/// A lane and its current episode.
+/// An environment and its current episode.
 pub(crate) struct Lane {
     pub(crate) state: engine::State,
     pub(crate) root: usize,
@@ -69,15 +70,15 @@ pub(crate) struct Lane {
     pub(crate) drawn: Drawn,
 }
 
-/// The score, outcome and status at the end of a lane's last finished episode. Callers need them if the step
+/// The score, outcome and status at the end of an environment's last finished episode. Callers need them if the step
 /// that ended the episode has already started the next episode.
 pub(crate) type Last = (f64, &'static str, Vec<f32>);
 
-/// The parts of a lane from which it can be restored: the level, the seed, the number of episodes started with
+/// The parts of an environment from which it can be restored: the level, the seed, the number of episodes started with
 /// the seed, the seed of the current episode, the actions, the end flag, and the end of the last episode.
 pub(crate) type SavedLane = (usize, String, u64, String, Vec<u8>, bool, (f64, String, Vec<f32>));
 
-/// The output of one lane's step.
+/// The output of one environment's step.
 pub(crate) struct Told<'a> {
     pub(crate) observation: &'a mut [u8],
     pub(crate) reward: &'a mut f64,
@@ -108,7 +109,7 @@ impl Sight {
 }
 
 impl Lane {
-    /// Returns the parts from which [`Setting::restore`] restores the lane.
+    /// Returns the parts from which [`Setting::restore`] restores the environment.
     pub(crate) fn saved(&self) -> SavedLane {
         let (score, outcome, status) = self.last.clone();
         let (seed, current) = (self.seed.to_string(), self.current.to_string());
@@ -118,7 +119,7 @@ impl Lane {
 }
 
 impl Setting {
-    /// Creates the setting of lanes that play the given levels of one game on boards of the given size.
+    /// Creates the setting of environments that play the given levels of one game on boards of the given size.
     pub(crate) fn new(
         levels: Vec<Level>,
         (columns, rows): (usize, usize),
@@ -160,7 +161,7 @@ impl Setting {
         })
     }
 
-    /// Creates the lane with the given number, before its first episode.
+    /// Creates the environment with the given number, before its first episode.
     pub(crate) fn lane(&self, number: usize) -> Lane {
         let root = number % self.roots.len();
         let seed = Seed::from_text(UNSEEDED).child("lane", number as u64);
@@ -178,13 +179,13 @@ impl Setting {
         }
     }
 
-    /// Returns `true` if this setting has the level and the actions of a saved lane.
+    /// Returns `true` if this setting has the level and the actions of a saved environment.
     pub(crate) fn fits(&self, saved: &SavedLane) -> bool {
         let known = self.rules().actions.len();
         saved.0 < self.roots.len() && saved.4.iter().all(|&action| usize::from(action) < known)
     }
 
-    /// Restores a saved lane by replaying its episode, and draws its observation.
+    /// Restores a saved environment by replaying its episode, and draws its observation.
     pub(crate) fn restore(&self, lane: &mut Lane, saved: SavedLane, out: &mut [u8]) {
         let (root, seed, episodes, current, actions, is_over, (score, outcome, status)) = saved;
         (lane.seed, lane.episodes, lane.current) = (seed_of(&seed), episodes, seed_of(&current));
@@ -229,7 +230,7 @@ impl Setting {
         }
     }
 
-    /// Draws an observation by updating the lane's previous observation.
+    /// Draws an observation by updating the environment's previous observation.
     pub(crate) fn update(&self, lane: &mut Lane, out: &mut [u8]) {
         match self.sight {
             Sight::Planes => self.planes.update(&mut lane.state, &mut lane.drawn, out),
@@ -255,20 +256,20 @@ impl Setting {
         }
     }
 
-    /// Starts the next episode in a lane.
+    /// Starts the next episode in an environment.
     pub(crate) fn begin(&self, lane: &mut Lane, out: &mut [u8]) {
         lane.current = lane.seed.child("episode", lane.episodes);
         lane.episodes += 1;
         self.start(lane, out);
     }
 
-    /// Starts an episode in a lane with the lane's current seed.
+    /// Starts an episode in an environment with the environment's current seed.
     pub(crate) fn start(&self, lane: &mut Lane, out: &mut [u8]) {
         self.place(lane);
         self.draw(lane, out);
     }
 
-    /// Puts a lane at the start of an episode. The level is drawn from the episode's seed, unless a level has
+    /// Puts an environment at the start of an episode. The level is drawn from the episode's seed, unless a level has
     /// been chosen.
     pub(crate) fn place(&self, lane: &mut Lane) {
         lane.root = lane.chosen.take().unwrap_or_else(|| match self.roots.len() {
@@ -280,27 +281,27 @@ impl Setting {
         lane.is_over = false;
     }
 
-    /// Plays one tick in a lane, and records its action.
+    /// Plays one tick in an environment, and records its action.
     pub(crate) fn advance(&self, lane: &mut Lane, action: u8) -> Outcome {
         lane.actions.push(action);
         let rules = self.rules();
         rules.game.step(&mut lane.state, rules.actions[usize::from(action)])
     }
 
-    /// Writes the status of a lane's state.
+    /// Writes the status of an environment's state.
     pub(crate) fn write_status(&self, lane: &Lane, out: &mut [f32]) {
         let steps_left = self.max_steps.saturating_sub(lane.actions.len() as u64);
         self.status.write(self.rules(), &lane.state, steps_left, out);
     }
 
-    /// Returns the score, outcome and status of a lane's current episode.
+    /// Returns the score, outcome and status of an environment's current episode.
     pub(crate) fn end_of(&self, lane: &Lane) -> Last {
         let mut status = vec![0.0; self.status.len()];
         self.write_status(lane, &mut status);
         (lane.state.score(), outcome_name(lane.state.outcome()), status)
     }
 
-    /// Plays one step in a lane. Returns `true` if the step ended an episode.
+    /// Plays one step in an environment. Returns `true` if the step ended an episode.
     pub(crate) fn step(&self, lane: &mut Lane, action: u8, told: Told<'_>, last: Option<&mut [u8]>) -> bool {
         (*told.reward, *told.terminated, *told.truncated) = (0.0, false, false);
         if lane.is_over {

@@ -1,7 +1,7 @@
-//! Lanes. A lane plays one episode of a game after another. Many lanes are stepped together, with their
-//! observations in one buffer.
+//! A batch of environments (*lanes* in the code), each of which plays one episode of a game after another. All
+//! environments are stepped together, with their observations in one buffer.
 //!
-//! Each lane plays independently, with its own seed. The results do not depend on the number of threads.
+//! Each environment plays independently, with its own seed. The results do not depend on the number of threads.
 
 use crate::errors::{failed, invalid};
 use crate::game::{Level, outcome_name, seed_of};
@@ -13,12 +13,12 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// The number of lanes per task in the thread pool.
+/// The number of environments per task in the thread pool.
 const LANES_OF_A_TASK: usize = 64;
-/// The minimum number of lanes for which a thread pool is faster than the calling thread alone.
+/// The minimum number of environments for which a thread pool is faster than the calling thread alone.
 const LANES_OF_A_POOL: usize = 4 * LANES_OF_A_TASK;
 
-/// Many lanes of one game, stepped together.
+/// Many environments of one game, stepped together.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct Lanes {
     setting: Setting,
@@ -81,7 +81,7 @@ impl Lanes {
         self.setting.status.names()
     }
 
-    /// Writes the status of each lane, one after another.
+    /// Writes the status of each environment, one after another.
     fn status(&self, py: Python<'_>, mut out: PyReadwriteArray1<'_, f32>) -> PyResult<()> {
         let (out, size) = (out.as_slice_mut()?, self.setting.status.len());
         if out.len() != self.lanes.len() * size {
@@ -95,12 +95,12 @@ impl Lanes {
         Ok(())
     }
 
-    /// Returns the parts from which [`Lanes::restore`] restores the lanes.
+    /// Returns the parts from which [`Lanes::restore`] restores the environments.
     fn save(&self) -> Vec<SavedLane> {
         self.lanes.iter().map(Lane::saved).collect()
     }
 
-    /// Restores saved lanes by replaying their episodes, and writes their observations.
+    /// Restores saved environments by replaying their episodes, and writes their observations.
     fn restore(
         &mut self,
         py: Python<'_>,
@@ -122,43 +122,43 @@ impl Lanes {
         Ok(())
     }
 
-    /// The seed of each lane's current episode.
+    /// The seed of each environment's current episode.
     #[getter]
     fn seeds(&self) -> Vec<String> {
         self.lanes.iter().map(|lane| lane.current.to_string()).collect()
     }
 
-    /// The index of each lane's level.
+    /// The index of each environment's level.
     #[getter]
     fn levels(&self) -> Vec<usize> {
         self.lanes.iter().map(|lane| lane.root).collect()
     }
 
-    /// The state hash of each lane.
+    /// The state hash of each environment.
     #[getter]
     fn hashes(&self) -> Vec<String> {
         self.lanes.iter().map(|lane| lane.state.state_hash().to_string()).collect()
     }
 
-    /// The current outcome of each lane.
+    /// The current outcome of each environment.
     #[getter]
     fn outcomes(&self) -> Vec<&'static str> {
         self.lanes.iter().map(|lane| outcome_name(lane.state.outcome())).collect()
     }
 
-    /// The current score of each lane.
+    /// The current score of each environment.
     #[getter]
     fn scores(&self) -> Vec<f64> {
         self.lanes.iter().map(|lane| lane.state.score()).collect()
     }
 
-    /// Returns the score, outcome and status at the end of the last finished episode in a lane. They are
-    /// needed for lanes that start the next episode in the same step.
+    /// Returns the score, outcome and status at the end of the last finished episode in an environment. They are needed
+    /// for environments that start the next episode in the same step.
     fn last(&self, lane: usize) -> PyResult<Last> {
         Ok(self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?.last.clone())
     }
 
-    /// Returns a copy of a lane's state.
+    /// Returns a copy of an environment's state.
     fn state(&self, lane: usize) -> PyResult<State> {
         let found = self.lanes.get(lane).ok_or_else(|| invalid("there is no such lane"))?;
         let named = &self.setting.rules().actions;
@@ -167,7 +167,7 @@ impl Lanes {
         Ok(State::of_episode(level, found.state.clone(), found.current, actions))
     }
 
-    /// Sets a lane's seed, from which the seeds of its episodes are derived. If `exact` is `true`, the next
+    /// Sets an environment's seed, from which the seeds of its episodes are derived. If `exact` is `true`, the next
     /// episode uses the seed itself.
     fn seed(&mut self, lane: usize, seed: &str, exact: bool) -> PyResult<()> {
         let found = self.lanes.get_mut(lane).ok_or_else(|| invalid("there is no such lane"))?;
@@ -178,7 +178,7 @@ impl Lanes {
         Ok(())
     }
 
-    /// Sets the seed of each lane `i` to `seed.child("lane", i)`.
+    /// Sets the seed of each environment `i` to `seed.child("lane", i)`.
     fn seed_all(&mut self, seed: &str) {
         let seed = seed_of(seed);
         for (number, lane) in self.lanes.iter_mut().enumerate() {
@@ -186,7 +186,7 @@ impl Lanes {
         }
     }
 
-    /// Sets the level of a lane's next episode.
+    /// Sets the level of an environment's next episode.
     fn choose(&mut self, lane: usize, level: usize) -> PyResult<()> {
         if level >= self.setting.roots.len() {
             return Err(invalid(format_args!("the environment has no level {level}")));
@@ -195,7 +195,8 @@ impl Lanes {
         Ok(())
     }
 
-    /// Starts the next episode in each lane whose flag in `mask` is set, and writes the lane's observation.
+    /// Starts the next episode in each environment whose flag in `mask` is set, and writes the environment's
+    /// observation.
     #[pyo3(signature = (mask, observations, exact = false))]
     fn reset(
         &mut self,
@@ -228,8 +229,8 @@ impl Lanes {
         Ok(())
     }
 
-    /// Plays one step in every lane. If lanes reset in the same step, `last` receives the last observations
-    /// of the episodes that ended. Returns the number of episodes that ended.
+    /// Plays one step in every environment. If environments reset in the same step, `last` receives the last
+    /// observations of the episodes that ended. Returns the number of episodes that ended.
     #[allow(clippy::too_many_arguments, reason = "each argument is an array")]
     fn step(
         &mut self,
@@ -339,7 +340,7 @@ struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// Splits the lanes and buffers into tasks. Each task includes the index of its first lane.
+    /// Splits the environments and buffers into tasks. Each task includes the index of its first environment.
     fn split<'l>(self, lanes: &'l mut [Lane], size: usize) -> Vec<((&'l mut [Lane], usize), Buffers<'a>)> {
         let count = lanes.len().div_ceil(LANES_OF_A_TASK);
         let mut lasts: Vec<Option<&mut [u8]>> = match self.last {

@@ -24,7 +24,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }
 
-/// Mints a release, or its shard `K/N`, from the text of its recipe.
+/// Mints a release, or its part (shard) `K/N`, from the text of its recipe.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
 #[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
@@ -62,7 +62,7 @@ pub(crate) fn mint(
     })
 }
 
-/// Merges a release's shards.
+/// Merges a release's shards, which are its separately minted parts.
 #[pyfunction]
 #[pyo3(signature = (shards, out, *, secret = None, jobs = None))]
 pub(crate) fn merge(
@@ -93,7 +93,7 @@ fn tools(corpus: &Corpus) -> Tools<'_> {
     Tools { corpus, lockfile: Digest::of(LOCKFILE), players: &Players }
 }
 
-/// The players that measure marks, by the names that `arcade evaluate --player` accepts.
+/// The reference players whose results a release stores, by the names that `arcade evaluate --player` accepts.
 #[derive(Debug)]
 struct Players;
 

@@ -160,7 +160,7 @@ def test_threads_change_nothing(observation: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(ia.corpus()))
 def test_boards_are_kept_up_to_date(name: str) -> None:
-    """Checks that boards drawn over earlier boards equal boards drawn from scratch, in lanes of all levels."""
+    """Checks that boards drawn over earlier boards equal boards drawn from scratch, in environments of all levels."""
     envs = arcade.GameVectorEnv(name, num_envs=10, autoreset_mode=AutoresetMode.SAME_STEP, threads=1, copy=False)
     rng = np.random.default_rng(1)
     observations, _ = envs.reset(seed=1)

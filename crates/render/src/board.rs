@@ -185,8 +185,8 @@ pub(crate) fn over(place: Place) -> Place {
     Place { x: place.x + dx, y: place.y + dy, w: place.w * OVER, h: place.h * OVER }
 }
 
-/// Draws a plate with the glyph in the middle, for a sprite that is much wider than it is high, or vice versa. A
-/// stretched glyph would be unrecognisable. Returns the glyph's rectangle.
+/// Draws a plate with the type's symbol (glyph) in the middle, for a sprite that is much wider than it is high, or vice
+/// versa. A stretched symbol would be unrecognisable. Returns the symbol's rectangle.
 fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
     let Place { x, y, w, h } = place;
     let side = w.min(h);

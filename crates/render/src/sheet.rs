@@ -84,13 +84,15 @@ fn broken(caption: &str, letters: usize) -> Vec<String> {
     lines.iter().map(|line| shortened(line, letters)).collect()
 }
 
-/// Returns every glyph with its meaning, in rows of `columns` glyphs, as a legend for all boards.
+/// Returns every glyph (symbol of a kind of sprite) with its meaning, in rows of `columns` glyphs, as a legend for all
+/// boards.
 pub fn gallery(columns: usize) -> Picture {
     let entries: Vec<_> = Glyph::ALL.iter().map(|&glyph| (Look::plain(glyph), glyph.meaning())).collect();
     shelves(&entries, columns, 290)
 }
 
-/// Returns every figure with its name, in rows of `columns` figures, drawn in colours that games use.
+/// Returns every figure (drawing of a noun) with its name, in rows of `columns` figures, drawn in colours that games
+/// use.
 pub fn figures(columns: usize) -> Picture {
     const COLOURS: [Colour; 6] = [ORANGE, SKY, GREEN, YELLOW, VERMILION, PURPLE];
     let look = |(form, at): (Form, usize)| {

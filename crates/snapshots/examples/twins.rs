@@ -1,5 +1,5 @@
-//! Writes the twins of the games in a folder, whether hand-made or generated: `cargo run --release -p
-//! infinite-arcade-snapshots --example twins -- renamed GAMES OUT`.
+//! Writes a twin of each game in a folder, which is the same game with a different surface (names, characters or
+//! orientation): `cargo run --release -p infinite-arcade-snapshots --example twins -- renamed GAMES OUT`.
 
 use infinite_arcade_snapshots::twin::{Twin, of_game};
 use std::error::Error;

@@ -44,7 +44,7 @@ pub enum SnapshotError {
     /// The release to be packed is sealed, so part of it is withheld.
     #[error("`{}` is sealed, and only a complete release can be packed: reveal it first", .0.in_message())]
     HeldBack(PathBuf),
-    /// A file in a shard differs from its entry in the shard's list.
+    /// A file in a shard (a separately minted part of a release) differs from its entry in the shard's list.
     #[error("`{}` was changed after it was made: fetch the shard again, or mint it again", .0.in_message())]
     Altered(PathBuf),
     /// A file that should contain a sealed release's secret does not contain one.

@@ -37,7 +37,8 @@ pub struct ReleasedGame {
     pub game: Game,
     /// The levels, in card order.
     pub levels: Vec<ReleasedLevel>,
-    /// The sibling that a coin toss selected to be withheld, if it exists and has been revealed.
+    /// The game's sibling: a renamed copy that was withheld by a secret random choice. `None` if it does not exist or
+    /// has not been revealed.
     pub sibling: Option<ReleasedSibling>,
 }
 
@@ -61,7 +62,8 @@ pub struct ReleasedLevel {
     pub level: Level,
     /// A winning episode, if the release contains one.
     pub witness: Option<Episode>,
-    /// The win that a coin toss selected to be withheld, if it exists and has been revealed.
+    /// The second win, which was withheld by a secret random choice. `None` if it does not exist or has not been
+    /// revealed.
     pub second: Option<Episode>,
 }
 

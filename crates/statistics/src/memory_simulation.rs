@@ -10,8 +10,8 @@ use crate::planning::draws::Draws;
 pub struct MemoryTrial {
     /// The simulated player.
     pub player: Memoriser,
-    /// The decrease in ability caused by new names, in logits. Neither sibling uses the names from the games that the
-    /// player knows.
+    /// The decrease in ability caused by new names, in logits. Neither of the two renamings of a game (siblings) uses
+    /// the names that the player knows.
     pub hurt: f64,
     /// The standard deviation, in logits, of the decrease in ability across different sets of names for the same
     /// game.
@@ -21,8 +21,9 @@ pub struct MemoryTrial {
 }
 
 impl MemoryTrial {
-    /// Returns the power of the sibling test: the fraction of `trials` in which the test has p ≤ `alpha`.
-    /// There are `pairs` coin tosses, each with one pair of siblings and one episode per side.
+    /// Returns the power of the test on siblings (two renamings of a game, of which a random choice published one). The
+    /// power is the fraction of `trials` in which the test has p ≤ `alpha`. There are `pairs` random choices, each with
+    /// one episode per renaming.
     pub fn siblings(&self, pairs: usize, alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let ability = self.spread.ability(self.player.clean);
@@ -38,9 +39,9 @@ impl MemoryTrial {
         flagged(trials, alpha, || (0..pairs).map(|_| pair()).collect())
     }
 
-    /// Returns the power of the sibling test if each coin toss applies to several pairs of episodes. `pairs` contains
-    /// the number of pairs for each coin toss. The pairs for one coin toss are the levels of a game, which share the
-    /// game's difficulty and names.
+    /// Returns the power of the test on siblings (two renamings of a game) if each random choice applies to several
+    /// pairs of episodes. `pairs` contains the number of pairs for each choice. These pairs are the levels of a game,
+    /// which share the game's difficulty and names.
     pub fn sibling_games(&self, pairs: &[u64], alpha: f64, trials: u64, seed: u64) -> f64 {
         let mut draws = Draws::new(seed);
         let ability = self.spread.ability(self.player.clean);

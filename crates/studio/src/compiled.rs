@@ -55,14 +55,14 @@ impl Cache {
         Ok(fresh)
     }
 
-    /// Returns the compiled game like [`Cache::find`], but returns a refusal instead of problems, for
-    /// requests that need a game without problems.
+    /// Returns the compiled game like [`Cache::find`], but returns an error response instead of problems, for requests
+    /// that need a game without problems.
     pub(crate) fn need(&self, source: &str) -> Result<Arc<Compiled>, Refusal> {
         self.find(source).map_err(|problems| refused("the game", source, &problems))
     }
 }
 
-/// Returns a refusal that lists the problems in a text.
+/// Returns an error response that lists the problems in a text.
 fn refused(what: &str, text: &str, Diagnostics(problems): &Diagnostics) -> Refusal {
     let first = problems.first().map_or("", |problem| problem.message.as_str());
     let listed: Vec<_> = problems.iter().map(|problem| positions::problem(text, problem)).collect();

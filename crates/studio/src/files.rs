@@ -109,7 +109,7 @@ pub(crate) fn check_folder(folder: &Path) -> Result<(), Refusal> {
     }
 }
 
-/// Writes a file like [`put`], and returns a refusal on failure.
+/// Writes a file like [`put`], and returns an error response on failure.
 pub(crate) fn write(file: &Path, text: &str) -> Result<(), Refusal> {
     put(file, text).map_err(|error| {
         Refusal::failed(format_args!("cannot write {}: {}", shown(file), error.kind()))

@@ -72,8 +72,8 @@ impl Serialize for Mark {
     }
 }
 
-/// A change to a list of marks: the index of the change, the number of marks to remove there, and the marks to
-/// insert.
+/// A change to a list of marks (placed tiles): the index of the change, the number of marks to remove there, and the
+/// marks to insert.
 type Splice = (usize, usize, Vec<Mark>);
 
 /// A state's board, and the texts beside it.
@@ -83,7 +83,7 @@ pub(crate) struct Frame {
     height: i32,
     #[serde(skip_serializing_if = "Option::is_none")]
     marks: Option<Vec<Mark>>,
-    /// The difference from the previous frame, stored instead of the marks.
+    /// The difference from the previous frame, stored instead of the marks (placed tiles).
     #[serde(skip_serializing_if = "Option::is_none")]
     change: Option<Vec<Splice>>,
     caption: Vec<String>,
@@ -104,7 +104,7 @@ impl Frame {
         Frame::with_looks(&compiled.looks, state, tick, tiles)
     }
 
-    /// Draws a state, using the given looks.
+    /// Draws a state with the given looks, which determine the drawing of each type.
     pub(crate) fn with_looks(
         looks: &Looks,
         state: &State,
@@ -129,12 +129,12 @@ impl Frame {
     }
 }
 
-/// The maximum number of marks in a list of frames sent without differences.
+/// The maximum number of marks (placed tiles) in a list of frames sent without differences.
 const PLAIN: usize = 200_000;
-/// The maximum number of marks in a list of frames.
+/// The maximum number of marks (placed tiles) in a list of frames.
 const MOST: usize = 1_000_000;
-/// The maximum length of each of two lists of marks for which a minimal difference is computed. The cost grows with
-/// the product of the lengths.
+/// The maximum length of each of two lists of marks (placed tiles) for which a minimal difference is computed. The cost
+/// grows with the product of the lengths.
 const COMPARED: usize = 4_000;
 
 /// The frames of an episode. If there are few frames, they are stored unchanged. If there are many, they are
@@ -143,9 +143,9 @@ const COMPARED: usize = 4_000;
 pub(crate) struct Frames {
     all: Vec<Frame>,
     last: Vec<Mark>,
-    /// The number of marks in the list.
+    /// The number of marks (placed tiles) in the list.
     marks: usize,
-    /// The number of marks beyond which differences are stored.
+    /// The number of marks (placed tiles) beyond which differences are stored.
     plain: usize,
 }
 
@@ -186,7 +186,7 @@ impl Frames {
     }
 }
 
-/// Returns the splices that turn one frame's marks into the next frame's, from the end to the beginning.
+/// Returns the splices that turn one frame's marks (placed tiles) into the next frame's, from the end to the beginning.
 fn change(from: &[Mark], to: &[Mark]) -> Vec<Splice> {
     let same = |(a, b): &(&Mark, &Mark)| a == b;
     let start = from.iter().zip(to).take_while(same).count();
@@ -333,7 +333,7 @@ mod tests {
         let (mut few, mut many) = (Frames::new(), Frames::new());
         assert!((0..10).all(|at| few.push(frame(at, 10))));
         assert!(few.finish().iter().all(|frame| frame.marks.is_some()));
-        // Every mark in every frame is different, so the list fills up before the memory does.
+        // Every mark (placed tile) in every frame is different, so the list fills up before the memory does.
         let pushed = (0..1000).take_while(|&at| many.push(frame(at * 50_000, 50_000))).count();
         let frames = many.finish();
         assert_eq!((frames.len(), pushed), (pushed, frames.len()));

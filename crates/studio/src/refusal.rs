@@ -20,22 +20,22 @@ impl Refusal {
         Refusal { status, error: error.to_string(), help: None, more: Map::new() }
     }
 
-    /// Creates a refusal for an invalid request.
+    /// Creates the error response to an invalid request.
     pub(crate) fn bad(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::BAD_REQUEST, error)
     }
 
-    /// Creates a refusal for a request about an item that does not exist.
+    /// Creates the error response to a request about an item that does not exist.
     pub(crate) fn missing(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::NOT_FOUND, error)
     }
 
-    /// Creates a refusal for a valid request that is not allowed.
+    /// Creates the error response to a valid request that is not allowed.
     pub(crate) fn forbidden(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::FORBIDDEN, error)
     }
 
-    /// Creates a refusal for a failure of the machine, such as an I/O error or a lack of memory.
+    /// Creates the error response after a failure of the machine, such as an I/O error or a lack of memory.
     pub(crate) fn failed(error: impl fmt::Display) -> Refusal {
         Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, error)
     }

@@ -22,8 +22,8 @@ pub(crate) struct Signs {
 }
 
 impl Signs {
-    /// Chooses each type's symbol by its glyph. If several types share a symbol, its second column shows a
-    /// different character for each type, so that the types differ in more than colour. Unicode symbols that
+    /// Chooses each type's symbol by its glyph (kind of sprite). If several types share a symbol, its second column
+    /// shows a different character for each type, so that the types differ in more than colour. Unicode symbols that
     /// fill both columns are left unchanged.
     pub(crate) fn of(looks: &Looks, symbols: &Symbols, ascii: bool) -> Signs {
         let sign = |glyph: Glyph| if ascii { glyph.ascii() } else { glyph.unicode() };

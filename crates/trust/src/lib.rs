@@ -1,10 +1,9 @@
-//! Establishes trust between parties that do not know each other, through signed roots, key sets, and
-//! append-only logs.
+//! Establishes trust between parties that do not know each other, through signed roots, key sets, and append-only logs.
 //!
-//! A publisher signs a [`Statement`] about a release's root with keys in minisign files. A [`KeySet`]
-//! determines how many keys must sign, and which keys are revoked. [`Signatures`] checks the documents in a
-//! folder, based on an [`Anchor`] that the reader obtained from elsewhere. A public [`log`] records
-//! commitments and releases, in an order that nobody can change undetected.
+//! A publisher signs a [`Statement`] about a release's root with keys in minisign files. A [`KeySet`] determines how
+//! many keys must sign, and which keys are revoked. [`Signatures`] checks the documents in a folder, based on an
+//! [`Anchor`]: a trusted key or key set that the reader obtained from elsewhere. A public [`log`] records commitments
+//! and releases, in an order that nobody can change undetected.
 //!
 //! Nothing in this crate reads a clock. Every written file is either complete or absent (see [`disk::Disk`]).
 

@@ -31,7 +31,7 @@ pub enum Anchor {
 }
 
 impl Anchor {
-    /// Parses an anchor: a public key or a key set.
+    /// Parses an anchor, which is a trusted public key or a trusted key set.
     ///
     /// # Errors
     /// Returns an error if the bytes are neither a public key nor a key set.
@@ -167,7 +167,7 @@ impl Signatures {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
 
-    /// Returns the newest set in the chain of valid sets that follow a trusted set.
+    /// Returns the newest set in the chain of valid sets that follow a trusted set (the anchor).
     fn newest(&self, anchor: &KeySet, problems: &mut Vec<String>) -> KeySet {
         let mut newest = anchor.clone();
         // The loop terminates, because each set has a higher number than the previous set, and a separate
@@ -203,7 +203,7 @@ impl Signatures {
         (set.version == version && set.digest().ok()? == digest).then_some(set)
     }
 
-    /// Checks that a release's root is signed as the given anchor requires.
+    /// Checks that a release's root is signed as the given anchor (a trusted key or key set) requires.
     pub fn judge(&self, release: &str, root: &Digest, anchor: &Anchor) -> Signed {
         let mut faults = Vec::new();
         let mut best: Option<Signed> = None;

@@ -55,7 +55,7 @@ pub struct TypeClause {
 /// One side of an interaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Party {
-    /// The sprites of a type and its relatives.
+    /// The sprites of a type and of related types in the SpriteSet.
     Type(SpriteType),
     /// The edge of the screen.
     Edge,

@@ -58,7 +58,7 @@ fn stays_as_made(types: &[TypeInfo], stype: SpriteType) -> bool {
     is_whole && is_still && (stype != SpriteType(0) || !types.iter().any(leave_walls))
 }
 
-/// Returns, for each type, `true` if its sprites are scenery.
+/// Returns, for each type, `true` if its sprites are scenery, which means that no rule involves them.
 pub(crate) fn scenery(types: &[TypeInfo], referenced: &[bool]) -> Vec<bool> {
     // Type 0 is `wall`, which the engine itself refers to.
     let is_scenery = |stype: SpriteType| {

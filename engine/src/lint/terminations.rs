@@ -319,8 +319,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a rule that never fires would change sprites of the type or its relatives. Such a
-    /// rule has its own warning.
+    /// Returns `true` if a rule that never fires would change sprites of the type or of related types in the SpriteSet.
+    /// Such a rule has its own warning.
     fn has_rules_that_never_fire(&self, written: SpriteType) -> bool {
         let counts = |side: SpriteType| self.analysis.applies(side, written);
         let mut encounters = self.analysis.encounters().iter().filter(|encounter| !encounter.blocks());
@@ -330,8 +330,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns `true` if a level can place sprites of the type or its relatives, or sprites that create such
-    /// sprites, directly or in several steps.
+    /// Returns `true` if a level can place sprites of the type or of related types in the SpriteSet, or sprites that
+    /// create such sprites, directly or in several steps.
     fn at_start(&self, written: SpriteType) -> bool {
         let types: Vec<SpriteType> = self.game.sprite_types().collect();
         let mut there: Vec<bool> =

@@ -6,7 +6,8 @@ use crate::rules::SpriteType;
 use crate::state::State;
 use crate::world::{Slot, Sprite, World, flag};
 
-/// The maximum number of planes whose changes are tracked individually. Boards with more planes are redrawn.
+/// The maximum number of planes (arrays of cells, one per sprite type) whose changes are tracked individually. Boards
+/// with more planes are redrawn.
 const TRACKED: usize = 64;
 /// The number of changes after which [`Planes::update`] settles the running hash, which empties the list of changes.
 const MANY_CHANGES: usize = 24;
@@ -26,7 +27,7 @@ pub struct Planes {
     columns: usize,
     rows: usize,
     types: Vec<SpriteType>,
-    /// For each type, the index of its plane, or [`Planes::NO_PLANE`].
+    /// For each type, the index of its plane (its array of cells), or [`Planes::NO_PLANE`].
     plane_of: Vec<u16>,
     /// A bit set of planes. A plane's bit is set if sprites of its type can move without being recorded in
     /// the list of changes.
@@ -40,8 +41,8 @@ pub struct Drawn(Vec<u32>);
 impl Planes {
     const NO_PLANE: u16 = u16::MAX;
 
-    /// Creates the planes for the given types, on boards of `columns` by `rows` cells. Hidden types get no
-    /// plane.
+    /// Creates the planes (arrays of cells) for the given types, on boards of `columns` by `rows` cells. Hidden types
+    /// get no plane.
     pub fn new(
         game: &Game,
         types: impl IntoIterator<Item = SpriteType>,
@@ -60,12 +61,12 @@ impl Planes {
         Planes { columns, rows, types, plane_of, unnoted }
     }
 
-    /// Returns the types in the order of their planes.
+    /// Returns the types in the order of their planes (arrays of cells).
     pub fn types(&self) -> &[SpriteType] {
         &self.types
     }
 
-    /// Returns the total size of all planes in bytes.
+    /// Returns the total size of all planes (arrays of cells, one per sprite type) in bytes.
     pub fn size(&self) -> usize {
         self.types.len() * self.columns * self.rows
     }

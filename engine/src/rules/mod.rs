@@ -294,9 +294,9 @@ pub(crate) struct Rules {
     /// For each type, `true` if anything other than its own line, its parents' lines and the LevelMapping
     /// refers to the type.
     pub(crate) referenced: Vec<bool>,
-    /// For each type, `true` if its sprites are scenery (`scenery.rs`).
+    /// For each type, `true` if its sprites are scenery, which no rule involves (`scenery.rs`).
     pub(crate) scenery: Vec<bool>,
-    /// For each type, `true` if its sprites are fixtures (`fixtures.rs`).
+    /// For each type, `true` if its sprites are fixtures, which never change (`fixtures.rs`).
     pub(crate) fixtures: Vec<bool>,
     /// The sprites that each character places, by ASCII code.
     pub(crate) mapping: Vec<SmallVec<[SpriteType; 4]>>,

@@ -63,7 +63,7 @@ impl Termination {
         }
     }
 
-    /// Returns the types that the termination counts. The relatives of these types are counted, too.
+    /// Returns the types that the termination counts. Related types in the SpriteSet are counted, too.
     pub(crate) fn counts(&self) -> &[SpriteType] {
         match &self.condition {
             Condition::SpriteCounter { stype, .. }

@@ -27,16 +27,16 @@ use crate::world::{Slot, Watcher, World};
 pub(crate) struct Foresight<'a> {
     pub(super) plan: &'a Plan,
     pub(super) schedule: &'a mut Schedule,
-    /// `true` if sprites may sleep in this step.
+    /// `true` if sprites may sleep in this step, which means that their updates are skipped.
     pub(super) sleeps: bool,
     /// `true` if sprites may fly in this step.
     pub(super) flies: bool,
-    /// `true` if any sprite that may sleep or fly has moved by itself.
+    /// `true` if any sprite whose updates may be skipped has moved by itself.
     pub(super) any_moved: bool,
 }
 
 impl<'a> Foresight<'a> {
-    /// Returns the scheduler for a step that starts with this world. Without an avatar, no sprite sleeps,
+    /// Returns the scheduler for a step that starts with this world. Without an avatar, no sprite sleeps (is skipped),
     /// because a rule with a score would then stop the game.
     pub(crate) fn new(plan: &'a Plan, schedule: &'a mut Schedule, world: &World) -> Foresight<'a> {
         let sleeps = plan.any_sleep && world.has_avatar();

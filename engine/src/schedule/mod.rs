@@ -36,13 +36,13 @@ flat! {
             reasons: u16,
             /// The passes with at least one reason, as a bit set.
             possible: u64,
-            /// The sleeping sprites (`sleep.rs`).
+            /// The sleeping sprites, whose updates are skipped (`sleep.rs`).
             sleepers: Sleeper,
-            /// For each cell, the number of sleeping sprites that watch the cell. Empty for games in which
+            /// For each cell, the number of sleeping (skipped) sprites that watch the cell. Empty for games in which
             /// sprites cannot sleep.
             watched: u8,
-            /// For each cell, the tick of the last permanent change, or the tick until which a sprite flies
-            /// there. Empty for games in which sprites cannot sleep.
+            /// For each cell, the tick of the last permanent change, or the tick until which a sprite flies there
+            /// (moves without updates). Empty for games in which sprites cannot sleep.
             stamps: i16,
             /// The sprites in flight (`flight.rs`).
             flights: Flight,
@@ -67,7 +67,7 @@ pub(crate) struct Plan {
     pub(crate) contacts: Contacts,
     /// Each type's shortcuts.
     pub(crate) shortcuts: Vec<Shortcuts>,
-    /// `true` if sprites of some type may sleep.
+    /// `true` if sprites of some type may sleep, which means that their updates are skipped.
     pub(crate) any_sleep: bool,
     /// `true` if sprites of some type may fly.
     pub(crate) any_fly: bool,
@@ -88,7 +88,8 @@ impl Plan {
 }
 
 impl Schedule {
-    /// Returns the schedule for a world in which no sprite sleeps or flies. Cost: O(sprites + cells).
+    /// Returns the schedule for a world in which no sprite sleeps or flies, so that no updates are skipped. Cost:
+    /// O(sprites + cells).
     pub(crate) fn of(plan: &Plan, models: &Models, world: &mut World) -> Schedule {
         let mut schedule = Schedule::empty(plan, world);
         let mut foresight = Foresight::new(plan, &mut schedule, world);
@@ -125,7 +126,7 @@ impl Schedule {
         schedule
     }
 
-    /// Returns the number of a type's sprites that are asleep or in flight.
+    /// Returns the number of a type's sprites that are asleep or in flight, and whose updates are skipped.
     #[inline(always)]
     pub(crate) fn skipped_of(&self, stype: SpriteType) -> u16 {
         self.skipped.get(stype.index()).copied().unwrap_or(0)

@@ -69,7 +69,7 @@ impl Sleeper {
 pub(crate) struct Shortcuts {
     /// `true` if sprites of the type may fly.
     pub(crate) flies: bool,
-    /// `true` if sprites of the type may sleep.
+    /// `true` if sprites of the type may sleep, which means that their updates are skipped.
     pub(crate) sleeps: bool,
 }
 

@@ -35,7 +35,7 @@ pub(crate) struct Mover {
     /// The position in the update order.
     order: i32,
     update_kind: UpdateKind,
-    /// `true` if sprites of the type may fly or sleep.
+    /// `true` if sprites of the type may fly or sleep, which means that their updates are skipped.
     may_fly: bool,
     /// For producers, the bound below which a draw creates a sprite: see [`threshold`].
     threshold: i32,

@@ -54,7 +54,7 @@ impl Node<'_> {
     fn is_sound(&self) -> bool {
         let after = match self.grammar {
             Some(Section::LevelMapping) => return true,
-            // A one-word line is accepted here, but stops the reader later.
+            // A one-word line is accepted here, but stops the parser later.
             Some(Section::InteractionSet) if self.tokens.len() == 1 => return true,
             Some(Section::InteractionSet) => match self.arrow() {
                 Some(at) => &self.tokens[at + 1..],
@@ -175,7 +175,7 @@ impl<'a> Tree<'a> {
         }
         self.description.order.push((section, own));
         if foreign.is_some() {
-            // A line from another section stops the reader, just like an interaction without an effect.
+            // A line from another section stops the parser, just like an interaction without an effect.
             self.description.interactions.push(InteractionLine::default());
             self.description.order.push((Section::InteractionSet, 1));
         }

@@ -75,8 +75,8 @@ impl<'a, S: Scheduler> Step<'a, S> {
         self.world.plan(timer);
     }
 
-    /// Executes a timed effect on every sprite of a type and its relatives. The line's score change applies,
-    /// regardless of the effect's outcome.
+    /// Executes a timed effect on every sprite of a type and of related types in the SpriteSet. The line's score change
+    /// applies, regardless of the effect's outcome.
     fn timed_group(&mut self, timed: &Timed, stype: SpriteType, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
         let info = &rules.effects[usize::from(timed.effect)];
@@ -189,7 +189,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         S::run_pass(self, pass, newborn, watch);
     }
 
-    /// Returns one side of a pass, which consists of a type and its relatives.
+    /// Returns one side of a pass, which consists of a type and the related types in the SpriteSet.
     pub(crate) fn side(&self, stype: SpriteType) -> Side<'a> {
         Side { family: &self.rules.types[stype.index()], bits: self.models.trees[stype.index()] }
     }

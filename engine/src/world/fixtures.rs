@@ -10,7 +10,7 @@ use super::{Models, NONE, Slot, Sprite, Watcher, World};
 use crate::world::hash::contribution::{Contribution, exchange};
 use std::sync::Arc;
 
-/// The fixtures, in order of creation.
+/// The fixtures, which are sprites that never change, in order of creation.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fixtures(Vec<Sprite>);
 
@@ -43,7 +43,8 @@ impl World {
         &mut sprites[mirrored(usize::from(slot))]
     }
 
-    /// Creates a fixture. If other states share the fixtures, gives this state its own copy first.
+    /// Creates a fixture, which is a sprite that never changes. If other states share the fixtures, gives this state
+    /// its own copy first.
     pub(crate) fn add_fixture(&mut self, models: &Models, mut sprite: Sprite, watcher: &mut impl Watcher) {
         let slot = mirrored(self.fixture_count()) as Slot;
         (sprite.column, sprite.row) = self.place_of(sprite.rect);
@@ -79,7 +80,7 @@ impl World {
         self.arrive(models.bits[sprite.stype.index()], cell, watcher);
     }
 
-    /// Records all fixtures in their cells again, after the cells have been emptied.
+    /// Records all fixtures (sprites that never change) in their cells again, after the cells have been emptied.
     pub(super) fn reenter_fixtures(&mut self, models: &Models, watcher: &mut impl Watcher) {
         for slot in (0..self.fixture_count()).map(|number| mirrored(number) as Slot) {
             let sprite = *self.fixture(slot);

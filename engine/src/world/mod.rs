@@ -156,9 +156,9 @@ flat! {
         shared {
             /// The path finding tables (`paths.rs`), or `None` without `obs=`.
             paths: Paths,
-            /// The fixtures (`fixtures.rs`), or `None` if there are none.
+            /// The fixtures, which are sprites that never change (`fixtures.rs`), or `None` if there are none.
             fixtures: Fixtures,
-            /// The scenery (`scenery.rs`), or `None` if there is none.
+            /// The scenery, which consists of sprites that no rule involves (`scenery.rs`), or `None` if there is none.
             scenery: Scenery,
         }
     }
@@ -245,7 +245,8 @@ impl World {
         }
     }
 
-    /// Returns the sprite in a slot. The slot must not contain a fixture. This requirement saves a check.
+    /// Returns the sprite in a slot. The slot must not contain a fixture (a sprite that never changes). This
+    /// requirement saves a check.
     #[inline(always)]
     pub(crate) fn own(&self, slot: Slot) -> &Sprite {
         &self.sprites[usize::from(slot)]
@@ -261,7 +262,8 @@ impl World {
         self.get(self.avatar)
     }
 
-    /// Returns the number of slots, including free slots but excluding the slots of fixtures.
+    /// Returns the number of slots, including free slots but excluding the slots of fixtures (sprites that never
+    /// change).
     pub(crate) fn slot_count(&self) -> usize {
         self.sprites.len()
     }
@@ -275,7 +277,8 @@ impl World {
         &self.groups[stype.index()]
     }
 
-    /// Returns the slots of a type's sprites, in order of creation. Scenery has no slots.
+    /// Returns the slots of a type's sprites, in order of creation. Scenery (sprites that no rule involves) has no
+    /// slots.
     pub(crate) fn slots(&self, stype: SpriteType) -> impl Iterator<Item = Slot> + Clone + '_ {
         let mut at = self.group(stype).head;
         std::iter::from_fn(move || {
@@ -287,7 +290,8 @@ impl World {
         })
     }
 
-    /// Returns the number of sprites of a type and its relatives, including killed and disabled sprites.
+    /// Returns the number of sprites of a type and of related types in the SpriteSet, including killed and disabled
+    /// sprites.
     pub(crate) fn count(&self, rules: &Rules, stype: SpriteType) -> i32 {
         let tree = &rules.types[stype.index()].tree;
         tree.iter().map(|&stype| i32::from(self.group(stype).count)).sum()

@@ -5,7 +5,7 @@ use crate::numbers::geometry::Direction;
 use crate::rules::Rules;
 use std::sync::{Arc, OnceLock};
 
-/// A cell that paths may cross. Each cell of the board and of the ring around it has one of these marks.
+/// The value of a cell that paths may cross. Each cell of the board and of the ring around it has one of these values.
 const OPEN: u8 = 0;
 /// A cell that contains an obstacle or is off the board.
 const CLOSED: u8 = u8::MAX;

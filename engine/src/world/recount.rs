@@ -70,7 +70,7 @@ impl World {
         off | right | if over(y, h, sprite.row, self.rows) { flag::BELOW } else { 0 }
     }
 
-    /// Returns a slot's index in lists of all sprites, in which fixtures come last.
+    /// Returns a slot's index in lists of all sprites, in which fixtures (sprites that never change) come last.
     fn counted_at(&self, slot: Slot) -> usize {
         match usize::from(slot) {
             slot if slot < self.sprites.len() => slot,

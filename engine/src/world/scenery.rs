@@ -21,7 +21,8 @@ impl Scenery {
 }
 
 impl World {
-    /// Creates a scenery sprite. If other states share the scenery, gives this state its own copy first.
+    /// Creates a scenery sprite, which no rule involves. If other states share the scenery, gives this state its own
+    /// copy first.
     pub(crate) fn add_scenery(&mut self, sprite: Sprite) {
         self.groups[sprite.stype.index()].count += 1;
         self.next_id += 1;

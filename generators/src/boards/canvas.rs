@@ -17,7 +17,7 @@ pub(crate) struct Canvas {
     pub(crate) grid: Grid,
     pub(crate) wall: Vec<bool>,
     pub(crate) dividers: Vec<Divider>,
-    /// The floor cells in or around the landmark, reserved for the most important sprites.
+    /// The floor cells in or around the landmark (the plan's main feature), reserved for the most important sprites.
     pub(crate) marks: Vec<usize>,
 }
 
@@ -53,7 +53,7 @@ impl Canvas {
         }
     }
 
-    /// Marks the floor of a rectangle as part of the landmark.
+    /// Marks the floor of a rectangle as part of the plan's landmark (its main feature).
     pub(crate) fn mark(&mut self, (x, y): (usize, usize), size: (usize, usize)) {
         let cells = self.cells((x, y), size);
         self.marks.extend(cells.into_iter().filter(|&cell| !self.grid.on_border(cell)));

@@ -10,7 +10,7 @@ use engine::analysis::Motion;
 
 /// The number of consecutive free cells that a sprite moving straight ahead needs in its direction.
 const LANE: usize = 5;
-/// The minimum distance in steps between the hero and any hunter or spawner.
+/// The minimum distance in steps between the avatar and any hunter or spawner.
 const AWAY: usize = 6;
 /// The maximum fraction of a board's floor that may consist of narrow passages.
 const MAX_NARROW: f64 = 0.36;
@@ -167,15 +167,15 @@ impl<'k> Draft<'k> {
         if lane < LANE { 0 } else { lane as u32 }
     }
 
-    /// Returns the number of steps from the hero to every cell, through cells that are open at the start.
+    /// Returns the number of steps from the avatar to every cell, through cells that are open at the start.
     pub(crate) fn near(&self) -> Vec<u32> {
         let from: Vec<usize> = self.hero().into_iter().collect();
         self.grid.flood(&from, |cell| self.is_open(cell))
     }
 
-    /// Returns `true` if the board is sound. A sound board has one hero with nothing harmful nearby. All cells that are
-    /// not solid are connected, and only a small part of the board is narrow or walled. The number of each piece is in
-    /// its range, and no wall block stands alone.
+    /// Returns `true` if the board is sound. A sound board has one avatar with nothing harmful nearby. All cells that
+    /// are not solid are connected, and only a small part of the board is narrow or walled. The number of each piece is
+    /// in its range, and no wall block stands alone.
     pub(crate) fn is_sound(&self) -> bool {
         let Some(hero) = self.hero() else { return false };
         let reach = self.grid.flood(&[hero], |cell| !self.is_solid(cell));

@@ -26,7 +26,7 @@ pub(crate) enum Edit {
     Add,
     /// Removes a piece.
     Remove,
-    /// Moves the hero's start.
+    /// Moves the avatar's start.
     MoveHero,
 }
 

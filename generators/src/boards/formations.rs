@@ -42,7 +42,7 @@ impl Formation {
         FORMATIONS[sampler.weighted(&weights).expect("the weights are positive")].0
     }
 
-    /// Returns the offset from the anchor to the member with the given index.
+    /// Returns the offset from the group's first member to the member with the given index.
     fn offset(self, at: usize) -> (i32, i32) {
         const AROUND: [(i32, i32); 8] =
             [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)];

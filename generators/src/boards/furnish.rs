@@ -1,4 +1,4 @@
-//! The placement of pieces according to their idioms.
+//! The placement of pieces on a board. A type's [`Idiom`] is the kind of position that suits its sprites.
 
 use super::canvas::{Canvas, far_from};
 use super::dividers::{Stock, lay};
@@ -32,8 +32,8 @@ const EMPTY: f64 = 0.32;
 /// The maximum number of fragments in a composition; see [`Draft::fragments`].
 const FRAGMENTS: usize = 3;
 
-/// Composes a board: a plan, the material of its dividers, the hero, and all pieces. Returns `None` if there is no room
-/// for everything, or if the board is unsound, too empty or too fragmented.
+/// Composes a board: a plan, the material of its dividers, the avatar, and all pieces. Returns `None` if there is no
+/// room for everything, or if the board is unsound, too empty or too fragmented.
 pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     let sampler = &mut seed.child("board", 0).sampler();
     let size = kit.brief.size.unwrap_or_else(|| size(kit.brief.demand, sampler));
@@ -51,13 +51,14 @@ pub(crate) fn compose<'k>(kit: &'k Kit<'k>, seed: Seed) -> Option<Draft<'k>> {
     Some(draft).filter(|draft| is_composed && draft.is_sound())
 }
 
-/// Draws the number of columns and rows for a demand. Higher demands get larger boards.
+/// Draws the number of columns and rows for a position in the course, from 0 to 4. Later levels get larger boards.
 fn size(demand: u8, sampler: &mut Sampler) -> (usize, usize) {
     let more = usize::from(demand) / 2;
     (sampler.between(10 + more, 13 + more), sampler.between(8, 9 + more))
 }
 
-/// Places the hero in a zone with enough room, preferably next to a wall and neither in a gap nor at the landmark.
+/// Places the avatar where there is enough room, preferably next to a wall and neither in a gap nor at the plan's main
+/// feature.
 fn place_hero(draft: &mut Draft<'_>, canvas: &Canvas, sampler: &mut Sampler) -> Option<usize> {
     let zones = draft.grid.regions(|cell| draft.is_free(cell));
     let zones: Vec<&Vec<usize>> = zones.iter().filter(|zone| zone.len() >= 6).collect();
@@ -114,8 +115,8 @@ fn place(
     }
 }
 
-/// Returns the weight of each cell for a piece. The weights depend on the piece's idiom, on the landmark, and on the
-/// side of the dividers to which the piece belongs.
+/// Returns the weight of each cell for a piece. The weights depend on the kind of position that suits the piece, on the
+/// plan's main feature, and on the side of the dividers to which the piece belongs.
 fn weights(draft: &Draft<'_>, canvas: &Canvas, hero: usize, piece: &Piece) -> Vec<u32> {
     let near = draft.near();
     let far = far_from(draft.grid, hero, |cell| !draft.is_solid(cell));
@@ -159,7 +160,7 @@ fn beside_rival(draft: &Draft<'_>, piece: &Piece, cell: usize) -> u32 {
     u32::from(!draft.grid.beside(cell).any(|next| rival(&next)))
 }
 
-/// Places one or two patches or bands that do not cut off the hero's cell.
+/// Places one or two patches or bands that do not cut off the avatar's cell.
 fn place_patches(draft: &mut Draft<'_>, piece: &Piece, count: usize, sampler: &mut Sampler) {
     let parts = if count >= 8 && sampler.ratio(2, 3) { 2 } else { 1 };
     let is_hard = matches!(piece.idiom, Idiom::Hazard | Idiom::Crossing);

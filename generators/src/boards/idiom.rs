@@ -1,4 +1,4 @@
-//! The idiom of a sprite type: the kind of position that suits its sprites.
+//! Placement patterns of sprite types. A type's [`Idiom`] is the kind of position that suits its sprites.
 
 use engine::analysis::{EffectSummary, Encounter, Harm, Motion, Role, Side};
 use engine::{Analysis, SpriteType};
@@ -44,8 +44,9 @@ pub enum Idiom {
 }
 
 impl Idiom {
-    /// Returns a type's idiom with respect to the initial avatar. Returns `None` for types that are not placed as
-    /// pieces: the avatar, floor, shots, and types that play no part in the game. Cost: O(encounters × relatives).
+    /// Returns the kind of position that suits a type, with respect to the initial avatar. Returns `None` for types
+    /// that are not placed as pieces: the avatar, floor, shots, and types that play no part in the game. Cost:
+    /// O(encounters × relatives).
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Option<Idiom> {
         let start = analysis.start_avatar()?.stype;
         let facts = analysis.facts(stype);
@@ -118,7 +119,7 @@ impl Idiom {
         takes_part.then_some(if is_ended(analysis, stype) { Idiom::Ground } else { Idiom::Spot })
     }
 
-    /// Returns `true` if sprites with this idiom move by themselves.
+    /// Returns `true` if the type's sprites move by themselves.
     pub fn moves(self) -> bool {
         matches!(self, Idiom::Patrol | Idiom::Hunter | Idiom::Stray)
     }

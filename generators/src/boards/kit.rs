@@ -20,13 +20,13 @@ pub(crate) struct Piece {
     pub(crate) idiom: Idiom,
     /// `true` if the piece harms the player or creates harmful sprites.
     pub(crate) harmful: bool,
-    /// `true` if the brief specifies the number of pieces of this kind.
+    /// `true` if the request specifies the number of pieces of this kind.
     pub(crate) asked: bool,
     /// The minimum and maximum number of pieces per board.
     pub(crate) counts: (usize, usize),
 }
 
-/// The pieces, hero, walls and floor for a game's boards.
+/// The pieces, avatar, walls and floor for a game's boards.
 #[derive(Clone, Debug)]
 pub(crate) struct Kit<'a> {
     pub(crate) analysis: &'a Analysis,
@@ -37,7 +37,7 @@ pub(crate) struct Kit<'a> {
 }
 
 impl<'a> Kit<'a> {
-    /// Creates the kit for a game and a brief; `None` if no level character places exactly one avatar.
+    /// Creates the pieces for a game and a request; `None` if no level character places exactly one avatar.
     pub(crate) fn of(analysis: &'a Analysis, brief: &BoardBrief) -> Option<Kit<'a>> {
         let palette = Palette::of(analysis)?;
         let start = palette.avatars[0].0;
@@ -86,8 +86,8 @@ impl<'a> Kit<'a> {
         matches!(self.palette.walk(symbol), Walk::Open | Walk::Pushed)
     }
 
-    /// Returns `true` if sprites of the type open, fill or disarm other sprites and must therefore be on the hero's
-    /// side.
+    /// Returns `true` if sprites of the type open, fill or disarm other sprites and must therefore be on the avatar's
+    /// side of the dividers.
     pub(crate) fn is_opener(&self, stype: SpriteType) -> bool {
         let gives = self
             .analysis

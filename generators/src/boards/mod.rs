@@ -1,8 +1,8 @@
-//! A board generator for any game. Each board starts from a plan with a landmark, and is furnished according to the
-//! idioms of the game's types. A type's idiom is the kind of position that suits its sprites.
+//! A board generator for any game. Each board starts from a plan with a landmark, which is its main feature. Sprites
+//! are placed according to the [`Idiom`] of their type: the kind of position that suits them.
 //!
-//! The idioms are derived from the rules, so nothing in this module depends on names. A [`BoardVariation`] creates and
-//! edits boards. Only playing can show whether a board is good.
+//! The kinds of position are derived from the rules, so nothing in this module depends on names. A [`BoardVariation`]
+//! creates and edits boards. Only playing can show whether a board is good.
 
 mod brief;
 mod canvas;

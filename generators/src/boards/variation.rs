@@ -23,18 +23,19 @@ const FRAGMENTS: usize = 2;
 /// rectangle was larger before the edit, it must not grow.
 const EMPTY: f64 = 0.25;
 
-/// Boards for any game, as search candidates. The boards are composed from plans and idioms, and changed by edits.
+/// Boards for any game, as search candidates. The boards are composed from plans and from the kinds of position that
+/// suit each type ([`Idiom`](super::Idiom)), and changed by edits.
 ///
-/// All boards have one hero, connected ground that is mostly wide, and the numbers of sprites that the brief requests.
-/// Nothing harmful is next to the hero, who survives a few ticks of doing nothing. The boards are not tested for
-/// winnability. Cost: about a millisecond per board, and tens of microseconds per edit.
+/// All boards have one avatar, connected ground that is mostly wide, and the numbers of sprites that the request
+/// specifies. Nothing harmful is next to the avatar, which survives a few ticks of doing nothing. The boards are not
+/// tested for winnability. Cost: about a millisecond per board, and tens of microseconds per edit.
 #[derive(Clone, Debug)]
 pub struct BoardVariation<'a> {
     kit: Kit<'a>,
 }
 
 impl<'a> BoardVariation<'a> {
-    /// Creates a variation for a game and a brief.
+    /// Creates a variation for a game and a request.
     ///
     /// # Errors
     /// Returns an error if no level character in the game places exactly one avatar.

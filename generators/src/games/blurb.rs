@@ -1,4 +1,5 @@
-//! The texts about a rethemed game, derived from its rules and its scene: the title, the summary and the goal.
+//! The texts about a rethemed game: the title, the summary and the goal. They are derived from the rules, and from the
+//! scene, which supplies nouns and sentences.
 
 use super::casting;
 use super::english::{capital, headline, one, plural, series, spaced};
@@ -21,7 +22,7 @@ pub(crate) fn hero(analysis: &Analysis) -> String {
     avatar.map_or_else(|| "stranger".to_owned(), |avatar| spaced(analysis.game().name(avatar.stype)))
 }
 
-/// Draws a title for which `is_new` returns `true`, from the kind of game, the hero and the scene.
+/// Draws a title for which `is_new` returns `true`, from the kind of game, the avatar's noun and the scene.
 pub(super) fn title(
     analysis: &Analysis,
     retelling: &Retelling,
@@ -49,7 +50,7 @@ pub(super) fn title(
     titles.find(|title| is_new(title) && !title.contains("Avatar")).unwrap_or_else(|| format!("The {hero}"))
 }
 
-/// Describes the hero and the setting, the tasks and the dangers.
+/// Describes the avatar and the setting, the tasks and the dangers.
 pub(crate) fn summary(analysis: &Analysis, retelling: &Retelling, hero: &str) -> String {
     let game = analysis.game();
     let types = |fits: &dyn Fn(SpriteType, Use) -> bool| -> Vec<String> {

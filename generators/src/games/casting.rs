@@ -1,4 +1,4 @@
-//! The roles in a scene that a game's sprite types can play according to the rules.
+//! The assignment of a game's sprite types to the nouns of a scene, according to their use in the rules.
 
 use engine::analysis::{Analysis, Harm, Motion, Removal, Role as Use};
 use engine::{Direction, SpriteType};

@@ -36,7 +36,7 @@ kinds! {
     CollectAndAvoid "collect-and-avoid" "Harvest Hoard Gathering";
     /// Games in which the player finds a key and opens the lock.
     KeyAndDoor "key-and-door" "Secret Lock Key";
-    /// Games in which the player shoots or strikes all foes.
+    /// Games in which the player shoots or strikes all enemies.
     Shooter "shooter" "Hunt Stand Battle";
     /// Games in which the player pushes objects onto their targets.
     BoxPuzzle "box-puzzle" "Puzzle Labour Shift";
@@ -61,7 +61,7 @@ kinds! {
 }
 
 impl Kind {
-    /// Draws a word for the hero's task, for use in a title.
+    /// Draws a word for the avatar's task, for use in a title.
     pub(crate) fn title_word(self, sampler: &mut Sampler) -> &'static str {
         let title_words: Vec<&'static str> = self.title_words().split(' ').collect();
         title_words[sampler.below(title_words.len())]

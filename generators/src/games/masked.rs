@@ -1,6 +1,6 @@
-//! A game's masked twin: the same rules, with names, characters, colours and comments that carry no meaning.
+//! Masked games: a copy of a game with the same rules, whose names, characters, colours and comments carry no meaning.
 //!
-//! A player who has read about games knows what a `key` is for. A player of the masked twin must find out. The names
+//! A player who has read about games knows what a `key` is for. A player of the masked copy must find out. The names
 //! `wall` and `avatar` are unchanged, because the engine depends on them.
 
 use super::surface::{self, Symbols};
@@ -21,7 +21,7 @@ pub struct Masked {
 }
 
 impl Masked {
-    /// Creates the masked twin of a game that compiles. Sprite types are called `t1`, `t2` and so on in random order,
+    /// Creates the masked copy of a game that compiles. Sprite types are called `t1`, `t2` and so on in random order,
     /// level characters are drawn at random, and the game's colours are permuted. Images and comments are removed. All
     /// lines keep their order, so both games play identically, including their state hashes.
     pub fn of(description: &Description, seed: Seed) -> Masked {
@@ -40,7 +40,7 @@ impl Masked {
         &self.description
     }
 
-    /// Translates a level of the original game for the twin. Unmapped characters become spaces.
+    /// Translates a level of the original game for the masked copy. Unmapped characters become spaces.
     pub fn level(&self, text: &str) -> String {
         self.symbols.level(text)
     }

@@ -1,7 +1,8 @@
-//! The texts of games, the kinds of games, and twins of games under different names.
+//! The texts of games, the kinds of games, and copies of games under different names.
 //!
-//! The games themselves are composed from kernels ([`crate::kernels`]). The names in a rethemed game come from a scene
-//! and fit the roles of the types (`casting.rs`). The names in a masked game have no meaning.
+//! The games themselves are composed from hand-written designs ([`crate::kernels`]). The names in a rethemed game come
+//! from a scene (a set of nouns and sentences) and fit the roles of the types (`casting.rs`). The names in a masked
+//! game have no meaning.
 
 pub(crate) mod blurb;
 mod casting;
@@ -29,7 +30,7 @@ use engine::Game;
 pub struct GeneratedGame {
     /// The rules. Like the rules of frozen games, they were compiled without warnings from their printed text.
     pub rules: Game,
-    /// The title, in the terms of the game's scene.
+    /// The title, in the terms of the game's theme.
     pub title: String,
     /// A summary of the game in a few sentences.
     pub summary: String,
@@ -39,6 +40,7 @@ pub struct GeneratedGame {
     pub kind: Kind,
     /// `true` if sprites move even while the player does nothing.
     pub real_time: bool,
-    /// The patterns from which the game was generated: the kernel, its variants and the scene.
+    /// The sources of the generated game, such as `kernel/one-spark`: the hand-written design, its variants, and the
+    /// scene that supplies the nouns.
     pub patterns: Vec<String>,
 }

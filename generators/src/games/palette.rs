@@ -8,7 +8,7 @@ const SPARE: &str = "123456789*+=%&@?!^~$";
 /// Returns a level character for a type. The character is the first free letter of its name, in lower or upper case, or
 /// otherwise a free symbol.
 ///
-/// In every game, `.`, `w` and `A` represent floor, walls and the hero.
+/// In every game, `.`, `w` and `A` represent floor, walls and the avatar.
 pub(crate) fn symbol(name: &str, taken: &[char]) -> char {
     free_symbol(name, taken).expect("a game has fewer types than there are characters")
 }

@@ -20,12 +20,12 @@ enum End {
 pub struct PushRules {
     /// The destination for each kind of object.
     ends: [Option<End>; 2],
-    /// `true` if objects of one kind cannot be pushed over the other kind's drains. Objects can never be pushed over
-    /// the other kind's pits and mats.
+    /// `true` if objects of one kind cannot be pushed over the drains of the other kind. A drain is a target into which
+    /// objects disappear. Objects can never be pushed over the other kind's pits and mats.
     exclusive: bool,
     /// `true` if there are sills: cells that the avatar can enter and objects cannot.
     has_sills: bool,
-    /// `true` if there are strays: sprites that wander at random and kill the avatar.
+    /// `true` if deadly sprites wander at random over the board.
     has_strays: bool,
 }
 
@@ -69,7 +69,8 @@ impl PushRules {
         rules(Drain, None, false, false),
     ];
 
-    /// All rule sets with strays. No set is a near-duplicate of another in this list or in [`PushRules::ALL`].
+    /// All rule sets with deadly sprites that wander at random. No set is a near-duplicate of another in this list or
+    /// in [`PushRules::ALL`].
     pub const AMONG_STRAYS: [PushRules; 10] = [
         among_strays(Drain, Some(Mat), false, true),
         among_strays(Drain, Some(Pit), true, true),
@@ -86,35 +87,36 @@ impl PushRules {
     /// The characters used in the game's levels.
     pub const SYMBOLS: &str = ".wAcbousyznk";
 
-    /// The number of ticks that a stray (a randomly wandering sprite) takes to move one cell.
+    /// The number of ticks that a randomly wandering sprite takes to move one cell.
     pub(crate) const COOLDOWN: usize = 3;
-    /// The number of ticks that the spark takes to burn one cell of fuse.
+    /// The number of ticks that the spark takes to burn one cell of the fuse, which limits the time.
     pub(crate) const BURN: usize = 25;
 
     /// The floor character in levels of [`PushRules::game`].
     pub const FLOOR: char = '.';
-    /// The stray character.
+    /// The level character of the deadly sprites that wander at random.
     pub const STRAY: char = 'y';
-    /// The characters of the spark, the fuse and the keg, which occur only together with strays.
+    /// The characters of the spark, the fuse and the keg, which limit the time. They occur only together with wandering
+    /// deadly sprites.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 'z', fuse: 'n', keg: 'k', wall: PushRules::WALL };
     /// The wall character.
     pub(crate) const WALL: char = 'w';
     /// The avatar character.
     pub(crate) const AVATAR: char = 'A';
-    /// The sill character.
+    /// The level character of sills, which the avatar can enter and objects cannot.
     pub(crate) const SILL: char = 's';
     /// The characters of pushable objects, by kind.
     pub(crate) const THINGS: [char; 2] = ['c', 'b'];
     /// The characters of the objects' targets, by kind.
     pub(crate) const TARGETS: [char; 2] = ['o', 'u'];
 
-    /// Returns `true` if there are strays, which makes the game stochastic.
+    /// Returns `true` if deadly sprites wander at random, which makes the game stochastic.
     pub fn has_strays(self) -> bool {
         self.has_strays
     }
 
-    /// Returns the same rules without strays.
+    /// Returns the same rules without wandering deadly sprites.
     pub(crate) fn without_strays(self) -> PushRules {
         PushRules { has_strays: false, ..self }
     }
@@ -213,7 +215,7 @@ impl PushRules {
         }
         let mut loss = "";
         if self.has_strays {
-            // Strays are drawn above the things.
+            // Wandering sprites are drawn above the pushable objects.
             let _ =
                 writeln!(sprites, "    stray > RandomNPC cooldown={} color=DARKGREEN", PushRules::COOLDOWN);
             marks.push_str("    fuse > Immovable color=BROWN\n    keg > Immovable color=BLACK\n");

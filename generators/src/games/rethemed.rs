@@ -30,7 +30,7 @@ pub struct Rethemed {
     pub description: Description,
     /// The title in the new scene.
     pub title: String,
-    /// A sentence about the hero, the tasks and the dangers.
+    /// A sentence about the avatar, the tasks and the dangers.
     pub summary: String,
     /// The instructions for winning, in one sentence.
     pub goal: String,

@@ -58,8 +58,8 @@ pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item
     ['w', 'A'].into_iter().filter_map(undeclared)
 }
 
-/// Returns the built-in characters that this game maps itself. A twin must map these characters too, or they would
-/// acquire a built-in meaning that they do not have in this game.
+/// Returns the built-in characters that this game maps itself. A renamed copy must map these characters too, or they
+/// would acquire a built-in meaning that they do not have in this game.
 pub(super) fn mapped_builtins(description: &Description) -> impl Iterator<Item = char> {
     ['w', 'A'].into_iter().filter(|&symbol| unmapped(symbol, description).is_none())
 }

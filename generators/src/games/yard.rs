@@ -1,14 +1,14 @@
-//! Rules of yards. The avatar carries parcels to depots, one at a time, among carts that follow signs, and before a
-//! fuse burns down.
+//! Rules of yards, which are puzzles about carrying parcels. The avatar carries parcels to depots, one at a time, among
+//! carts that follow signs, and before a fuse burns down.
 
 use crate::levels::FuseSymbols;
 use engine::Game;
 use std::fmt::Write;
 
-/// A yard game's rules.
+/// The rules of a yard, in which the avatar carries parcels past moving carts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct YardRules {
-    /// The number of kinds of parcels, each with its own depot. The maximum is [`YardRules::KINDS`].
+    /// The number of kinds of parcels, each with its own depot (destination). The maximum is [`YardRules::KINDS`].
     kinds: usize,
     /// `true` if there are points: signs that reverse their direction whenever a cart has followed them.
     has_points: bool,
@@ -42,19 +42,19 @@ impl YardRules {
     pub(crate) const POINTS: [char; 2] = ['v', 'h'];
     /// The cart and wagon characters, each on a sign to the right.
     pub(crate) const CARTS: [char; 2] = ['c', 'g'];
-    /// The stray character.
+    /// The level character of the deadly sprites that wander at random.
     pub(crate) const STRAY: char = 'y';
     /// The parcel characters, by kind.
     pub(crate) const PARCELS: [char; YardRules::KINDS] = ['p', 'q'];
-    /// The depot characters, by kind.
+    /// The characters of the depots (destinations of parcels), by kind.
     pub(crate) const DEPOTS: [char; YardRules::KINDS] = ['o', 'x'];
-    /// The characters of the spark, the fuse and the keg.
+    /// The characters of the spark, the fuse and the keg, which limit the time.
     pub(crate) const FUSE_SYMBOLS: FuseSymbols =
         FuseSymbols { spark: 's', fuse: 'n', keg: 'k', wall: YardRules::WALL };
-    /// The number of ticks that the spark takes to burn one cell of fuse.
+    /// The number of ticks that the spark takes to burn one cell of the fuse, which limits the time.
     pub(crate) const BURN: usize = 14;
 
-    /// The number of ticks that a stray (a randomly wandering sprite) takes to move one cell.
+    /// The number of ticks that a randomly wandering sprite takes to move one cell.
     pub(crate) const COOLDOWN: usize = 2;
 
     /// Returns the number of kinds of parcels.

@@ -10,14 +10,15 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// The number of port partitions to draw per choice of mechanics.
+/// The number of partitions of the ports (the mechanics' open roles) to draw per choice of mechanics.
 const PARTITIONS: usize = 24;
 /// The maximum number of choices of mechanics per draw.
 const CHOICES: u64 = 400;
-/// The maximum number of ports filled by one type.
+/// The maximum number of ports (open roles of mechanics) that one sprite type fills.
 const MOST_PORTS: usize = 3;
-/// The number of sound draws to compare. The draw with the hardest choices is preferred and, among equals, the one with
-/// the least-used couplings.
+/// The number of sound draws (draws that can become a game) to compare. The draw with the hardest choices for the
+/// player is preferred. Among equals, the draw whose merged pairs of ports (open roles of mechanics) were used least is
+/// preferred.
 const PROPOSALS: usize = 6;
 /// The number added to the use count of each mechanic, so that the first few uses hardly change the weights.
 const MECHANICS: u64 = 4;
@@ -39,8 +40,8 @@ impl Default for InventionConfig {
     }
 }
 
-/// Parts that draws should contain; see [`Census::lead`]. If no sound draw contains all of them, the mechanic is
-/// dropped first, and then the ending.
+/// The mechanics and the ending that draws should contain, chosen by [`Census::lead`]. If no draw that can become a
+/// game contains all of them, the mechanic is dropped first, and then the ending.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lead {
     /// The name of a mechanic.
@@ -51,17 +52,16 @@ pub struct Lead {
     pub ending: Option<&'static str>,
 }
 
-/// The number of games in which each mechanic, ending and coupling was used.
+/// The number of games in which each mechanic, each ending and each coupling (merged pair of ports) was used.
 ///
-/// Draws prefer the least-used mechanics, endings and couplings, so that over many months each of them occurs about
-/// equally often.
+/// Draws prefer the least-used entries, so that over many months each of them occurs about equally often.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Census {
     uses: BTreeMap<String, u32>,
 }
 
 impl Census {
-    /// Creates a census from the given counts per pattern.
+    /// Creates a census from the given use counts, by pattern (such as `mechanic/lock`).
     pub fn of(uses: &BTreeMap<String, u32>) -> Census {
         Census { uses: uses.clone() }
     }
@@ -91,9 +91,9 @@ impl Census {
             .filter_map(move |(name, uses)| Some((name.strip_prefix(kind)?.strip_prefix('/')?, *uses)))
     }
 
-    /// Returns the parts that a draw should contain: the danger and the ending for `turn`, and the mechanic for
-    /// `mechanic_turn`. Parts take turns from least to most used, and the seed breaks ties. Thus, games that are drawn
-    /// independently differ if their turns differ.
+    /// Returns the mechanics and the ending that a draw should contain: the danger and the ending for `turn`, and the
+    /// mechanic for `mechanic_turn`. They take turns from least to most used, and the seed breaks ties. Thus, games
+    /// that are drawn independently differ if their turns differ.
     pub fn lead(&self, seed: Seed, turn: usize, mechanic_turn: usize) -> Lead {
         let next = |(kind, part): (&str, u64), turn: usize, is_part: fn(&Mechanic) -> bool| {
             let parts = Mechanic::all().iter().filter(|mechanic| is_part(mechanic));
@@ -115,7 +115,8 @@ impl Census {
         self.uses.get(&format!("{kind}/{name}")).copied().unwrap_or_default()
     }
 
-    /// Returns the total use count of an invention's couplings. A lower total makes an invention look newer.
+    /// Returns the total use count of an invention's couplings, which are its merged pairs of ports. A lower total
+    /// makes an invention look newer.
     fn familiarity(&self, drawn: &Invention) -> u32 {
         drawn.couplings().iter().map(|pair| self.uses("coupling", pair)).sum()
     }
@@ -131,7 +132,7 @@ impl Census {
     }
 
     /// Returns the weight of a mechanic or ending in a draw. The weight decreases with the square of the number of uses
-    /// relative to the mean. It is higher for mechanics that are rarely part of a sound draw.
+    /// relative to the mean. It is higher for mechanics that are rarely part of a draw that can become a game.
     fn weight(&self, mechanic: &Mechanic) -> u32 {
         let (kind, prior) =
             if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
@@ -143,15 +144,16 @@ impl Census {
     }
 }
 
-/// The number of samples used to measure how often each mechanic is part of a sound draw.
+/// The number of samples used to measure how often each mechanic is part of a sound draw (one that can become a game).
 const SAMPLES: u64 = 6_000;
-/// The rarity of a mechanic that is part of sound draws as often as the average mechanic.
+/// The rarity of a mechanic that is part of sound draws (draws that can become a game) as often as the average
+/// mechanic.
 const USUAL: u64 = 16;
 /// The maximum rarity of a mechanic.
 const RAREST: u64 = 64;
 
-/// Returns the factor by which a mechanic's weight is increased because it is rarely part of a sound draw. The first
-/// call takes a third of a second.
+/// Returns the factor by which a mechanic's weight is increased because it is rarely part of a draw that can become a
+/// game. The first call takes a third of a second.
 fn rarity(name: &str) -> u64 {
     static ALL: OnceLock<BTreeMap<&str, u64>> = OnceLock::new();
     let all = ALL.get_or_init(|| {
@@ -187,12 +189,12 @@ pub fn share_idea(one: &[String], two: &[String]) -> bool {
 impl Invention {
     /// Draws an invention whose rules compile. Cost: a few milliseconds.
     ///
-    /// Returns `None` if none of several hundred draws is sound.
+    /// Returns `None` if none of several hundred draws can become a game.
     pub fn draw(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
         let any_mechanic = Lead { mechanic: None, ..config.lead };
         let danger_only = Lead { ending: None, ..any_mechanic };
-        // All draws may be unsound if the requested parts do not fit any other part, or if the census favours mechanics
-        // that do not fit together.
+        // All draws may be unsound if the requested mechanics do not fit any others, or if the use counts favour
+        // mechanics that do not fit together.
         let empty = Census::default();
         let tries = [
             (config.lead, census, "choice"),
@@ -217,7 +219,7 @@ impl Invention {
     }
 
     /// Draws one choice of `count` mechanics, with equal probability for all choices. Returns an invention with these
-    /// mechanics if a drawn partition is sound.
+    /// mechanics if a drawn partition of their ports (open roles) can become a game.
     pub(super) fn of_uniform_choice(count: usize, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let drawn = Invention::of_choice(choose(count, Lead::default(), |_| 1, sampler)?, sampler, seed)?;
@@ -288,13 +290,14 @@ fn choose(
     Some(chosen)
 }
 
-/// Draws a partition. Merges pairs of ports until every mechanic is linked, every mover has its motion, and no port is
-/// idle. May then merge one more pair.
+/// Draws a partition of the ports, which are the mechanics' open roles. Merges pairs of ports until every mechanic is
+/// linked, every mover has its motion, and no port is idle. May then merge one more pair.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }
 
-/// Completes a partition in which some ports are already merged, in the same way as [`partition`].
+/// Completes a partition in which some ports (the mechanics' open roles) are already merged, in the same way as
+/// [`partition`].
 pub(super) fn completed(
     mechanics: &[&'static Mechanic],
     begun: Vec<u8>,
@@ -306,7 +309,7 @@ pub(super) fn completed(
         .filter(|(one, other)| can_merge(&draft.ports[*one], &draft.ports[*other]))
         .collect();
     sampler.shuffle(&mut pairs);
-    // Ports whose type would be useless on its own are merged first, then the ports of unlinked mechanics.
+    // Ports (open roles) whose type would be useless on its own are merged first, then the ports of unlinked mechanics.
     for port in 0..draft.ports.len() {
         if draft.is_needy(port) {
             draft.merge_one(&pairs, |one, other| one == port || other == port)?;
@@ -324,15 +327,15 @@ pub(super) fn completed(
 
 type Ported = (PortId, &'static Port);
 
-/// A partition under construction.
+/// A partition of the ports (the mechanics' open roles) under construction.
 struct Draft {
     partition: Vec<u8>,
     ports: Vec<Ported>,
 }
 
 impl Draft {
-    /// Returns `true` if a port's type would be useless, because it is a mover without motion or because nothing needs
-    /// it.
+    /// Returns `true` if the type that fills a port (an open role) would be useless, because it is a mover without
+    /// motion or because nothing needs it.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };

@@ -6,9 +6,9 @@ use super::tests::{mechanics, partition};
 use base::Seed;
 use engine::{Action, Game, Outcome, syntax};
 
-/// Plays a game with the given mechanics, which need not be sound. The rows of the board are separated by spaces. The
-/// characters `a`, `b` and so on place the types in the order of their first ports. Returns the outcome and the number
-/// of actions played.
+/// Plays a game with the given mechanics, which need not pass the checks for a sound game. The rows of the board are
+/// separated by spaces. The characters `a`, `b` and so on place the types in the order of their first ports (open
+/// roles). Returns the outcome and the number of actions played.
 fn play(names: &[&str], merges: &[(&str, &str)], board: &str, keys: &str) -> (Outcome, usize) {
     let mechanics = mechanics(names);
     let seed = Seed::from_text("play");

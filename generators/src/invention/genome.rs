@@ -1,4 +1,4 @@
-//! The genome of an invented game: mechanics, a partition of their ports, numbers and texts.
+//! The genome of an invented game: mechanics, a partition of their ports (open roles) into types, numbers and texts.
 
 use super::emit;
 use super::fiction::Fiction;
@@ -16,9 +16,9 @@ use itertools::Itertools;
 /// An invented game as a list of choices.
 #[derive(Clone, Debug)]
 pub struct Invention {
-    /// The mechanics. The last mechanic is the ending.
+    /// The mechanics. The last one is the ending, which states how the game is won.
     pub(super) mechanics: Vec<&'static Mechanic>,
-    /// The type of each port, in the order of [`ports`].
+    /// The index of the type that fills each port (open role of a mechanic), in the order of [`ports`].
     pub(super) partition: Vec<u8>,
     /// The values of each mechanic's numeric parameters.
     pub(super) values: Vec<Vec<u32>>,
@@ -36,14 +36,15 @@ pub struct Invented {
     /// For each mechanic except the ending, the indices of its interactions. The list is empty if the mechanic only
     /// defines a motion or a class.
     pub mechanics: Vec<Vec<usize>>,
-    /// The idiom of each placeable type, by name.
+    /// The kind of position ([`Idiom`]) that suits each placeable type, by type name.
     pub idioms: Vec<(String, Idiom)>,
     /// For each mechanic except the ending, the types that no other mechanic uses. Without these types, a board lacks
     /// the mechanic.
     pub own_types: Vec<Vec<String>>,
 }
 
-/// The maximum number of rules that follow from bodies but never apply. Games with more such rules are rejected.
+/// The maximum number of rules that follow from the bodies (the physical nature) of types but never apply. Games with
+/// more such rules are rejected.
 const MOST_IDLE: usize = 8;
 /// The tick limit of an invention whose wins are not yet known.
 const LONG: u32 = 399;
@@ -81,7 +82,8 @@ impl Invention {
         self.types().map_or(0, |types| soundness::tension(&self.mechanics, &types))
     }
 
-    /// Returns the types that result from merging ports; `None` if some type has no body that fits all of its ports.
+    /// Returns the types that result from merging ports (open roles of mechanics); `None` if some type has no body that
+    /// fits all of its ports.
     pub(super) fn types(&self) -> Option<Vec<Merged>> {
         merged(&self.mechanics, &self.partition)
     }
@@ -91,7 +93,7 @@ impl Invention {
         self.mechanics.iter().map(|mechanic| mechanic.name.as_str())
     }
 
-    /// Returns the merged pairs of ports, such as `feed.food+lock.key`, sorted by name.
+    /// Returns the couplings, which are the merged pairs of ports, such as `feed.food+lock.key`, sorted by name.
     pub fn couplings(&self) -> Vec<String> {
         let name = |((mechanic, port), _): &((usize, usize), _)| {
             let mechanic = self.mechanics[*mechanic];
@@ -194,7 +196,7 @@ fn interactions(mechanic: usize, written: &emit::Written) -> Vec<usize> {
     own.map(|(at, _)| at).collect()
 }
 
-/// Numbers a partition's classes in the order of their first ports.
+/// Numbers a partition's classes in the order of their first ports (open roles of mechanics).
 pub(super) fn normal(partition: &[u8]) -> Vec<u8> {
     let mut seen: Vec<u8> = Vec::new();
     let number = |class: &u8| {
@@ -207,7 +209,7 @@ pub(super) fn normal(partition: &[u8]) -> Vec<u8> {
     partition.iter().map(number).collect()
 }
 
-/// Returns the partition that does not merge any ports.
+/// Returns the partition in which each port (open role of a mechanic) has its own type.
 pub(super) fn apart(mechanics: &[&'static Mechanic]) -> Vec<u8> {
     (0..=u8::MAX).take(ports(mechanics).len()).collect()
 }

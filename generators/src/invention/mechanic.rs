@@ -45,7 +45,7 @@ impl FromStr for Body {
     }
 }
 
-/// The use of a port from the player's point of view.
+/// The use of a port (an open role of a mechanic) from the player's point of view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Tag {
     /// The player needs the object for the mechanic.
@@ -106,7 +106,7 @@ impl FromStr for Tag {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Port {
     pub(crate) name: String,
-    /// The bodies that can fill the port, from most to least suitable.
+    /// The bodies (kinds of physical object) that can fill the port, from most to least suitable.
     pub(crate) bodies: Vec<Body>,
     pub(crate) tags: BTreeSet<Tag>,
     /// The properties that a noun must have for the rules to make sense.
@@ -135,7 +135,7 @@ pub(crate) enum Origin {
     Thing(Predicates),
 }
 
-/// A few clauses about ports, and the sentences that explain them.
+/// A few clauses about ports (open roles), and the sentences that explain the clauses.
 #[derive(Clone, Debug)]
 pub(crate) struct Mechanic {
     pub(crate) name: String,
@@ -201,12 +201,12 @@ impl Mechanic {
         Mechanic::all().iter().filter(move |mechanic| mechanic.ending.is_some() == are)
     }
 
-    /// Returns `true` if one of the mechanic's ports becomes a danger by itself.
+    /// Returns `true` if the type that fills one of the mechanic's ports (open roles) becomes a danger by itself.
     pub(crate) fn presses(&self) -> bool {
         self.ports.iter().any(|port| port.tags.contains(&Tag::Presses))
     }
 
-    /// Returns `true` if the mechanic requires its own avatar.
+    /// Returns `true` if the mechanic requires its own avatar class.
     pub(crate) fn has_hero(&self) -> bool {
         self.hero.is_some() || self.heroes.is_some()
     }

@@ -1,14 +1,14 @@
-//! The types that result from merging ports.
+//! The types that result from merging ports, which are the open roles of mechanics.
 
 use super::fiction::Predicates;
 use super::mechanic::{Body, Mechanic, Port, Tag};
 use crate::boards::Idiom;
 use std::collections::BTreeSet;
 
-/// A port, given by the index of its mechanic and its index within the mechanic.
+/// A port (an open role of a mechanic), given by the index of its mechanic and its index within the mechanic.
 pub(crate) type PortId = (usize, usize);
 
-/// A type that fills one or more ports.
+/// A type that fills one or more ports (open roles of mechanics).
 #[derive(Clone, Debug)]
 pub(crate) struct Merged {
     pub(crate) ports: Vec<(PortId, &'static Port)>,
@@ -16,7 +16,8 @@ pub(crate) struct Merged {
 }
 
 impl Merged {
-    /// Merges ports. Returns `None` if no body can fill all ports, or if two ports belong to the same mechanic.
+    /// Merges ports (open roles of mechanics). Returns `None` if no body can fill all ports, or if two ports belong to
+    /// the same mechanic.
     pub(crate) fn of(ports: Vec<(PortId, &'static Port)>) -> Option<Merged> {
         let mechanics: BTreeSet<usize> = ports.iter().map(|((mechanic, _), _)| *mechanic).collect();
         let (first, others) = ports.split_first()?;
@@ -25,12 +26,12 @@ impl Merged {
         (mechanics.len() == ports.len()).then_some(Merged { ports, body })
     }
 
-    /// Returns `true` if one of the type's ports has the given tag.
+    /// Returns `true` if one of the ports (roles) that the type fills has the given tag, which states its use.
     pub(crate) fn has(&self, tag: Tag) -> bool {
         self.ports.iter().any(|(_, port)| port.tags.contains(&tag))
     }
 
-    /// Counts the type's ports with the given tag.
+    /// Counts the ports (roles) with the given tag that the type fills.
     pub(crate) fn count(&self, tag: Tag) -> usize {
         self.ports.iter().filter(|(_, port)| port.tags.contains(&tag)).count()
     }
@@ -44,7 +45,7 @@ impl Merged {
         self.ports.iter().any(is_taken)
     }
 
-    /// Returns `true` if a port's mechanic removes sprites of the type from the board.
+    /// Returns `true` if the mechanic with the given port (open role) removes sprites of the type from the board.
     pub(crate) fn loses(&self, port: &Port) -> bool {
         port.tags.contains(&Tag::Lost) || (port.tags.contains(&Tag::Spent) && self.body != Body::Item)
     }
@@ -54,7 +55,7 @@ impl Merged {
         self.ports.iter().fold(Predicates::default(), |all, (_, port)| all.with(port.predicates))
     }
 
-    /// Returns the idiom for placing the type on boards, as far as the type's ports determine it.
+    /// Returns the kind of position that suits the type on boards, as far as the type's ports determine it.
     pub(crate) fn idiom(&self) -> Idiom {
         let is = |words: &[&str]| self.predicates().words().any(|word| words.contains(&word));
         match self.body {
@@ -72,13 +73,13 @@ impl Merged {
         }
     }
 
-    /// Returns `true` if the type fills more than one port.
+    /// Returns `true` if the type fills more than one port (open role of a mechanic).
     pub(crate) fn is_joint(&self) -> bool {
         self.ports.len() > 1
     }
 }
 
-/// Returns all ports of the mechanics, in order.
+/// Returns all ports (open roles) of the mechanics, in order.
 pub(crate) fn ports(mechanics: &[&'static Mechanic]) -> Vec<(PortId, &'static Port)> {
     let of_mechanic = |(at, mechanic): (usize, &&'static Mechanic)| {
         let mechanic: &'static Mechanic = mechanic;
@@ -87,7 +88,7 @@ pub(crate) fn ports(mechanics: &[&'static Mechanic]) -> Vec<(PortId, &'static Po
     mechanics.iter().enumerate().flat_map(of_mechanic).collect()
 }
 
-/// Groups ports by the class that a partition assigns to each.
+/// Groups ports (open roles of mechanics) by the class that a partition assigns to each.
 pub(crate) fn merged(mechanics: &[&'static Mechanic], partition: &[u8]) -> Option<Vec<Merged>> {
     let ports = ports(mechanics);
     let classes = partition.iter().max().map_or(0, |last| usize::from(*last) + 1);

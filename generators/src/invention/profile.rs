@@ -33,7 +33,7 @@ impl Verb {
 /// An invention's characteristics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
-    /// The number of ports filled by types with opposed uses.
+    /// The number of ports (roles of mechanics) that are filled by types with opposed uses.
     pub coupling: usize,
     /// The most distinctive verb.
     pub verb: Verb,

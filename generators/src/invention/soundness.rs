@@ -1,4 +1,5 @@
-//! Static conditions on merged ports, which reject unsound partitions before any rules are written.
+//! Static conditions on merged ports (open roles of mechanics), which reject partitions that cannot become a game
+//! before any rules are written.
 
 use super::mechanic::{Body, Mechanic, Port, Tag};
 use super::merge::{Merged, PortId};
@@ -6,12 +7,12 @@ use super::merge::{Merged, PortId};
 /// The maximum number of types that a player encounters.
 const MOST_TYPES: usize = 8;
 
-/// The reason for rejecting a partition.
+/// The reason for rejecting a partition of the mechanics' ports (open roles).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unsound {
-    /// No body suits all ports of a type.
+    /// No body (kind of physical object) suits all roles of a type.
     Body,
-    /// A mover has no motion or several motions.
+    /// A moving type has no motion or several motions.
     Motion,
     /// The mechanics are not all linked by shared types.
     Unconnected,
@@ -19,7 +20,7 @@ pub enum Unsound {
     Idle,
     /// No type has opposed uses, so no choice has a price.
     NoTension,
-    /// The player cannot influence a mover.
+    /// The player cannot influence a moving type.
     NoAgency,
     /// The goal is met by losing objects, or nothing removes the objects of the goal.
     Goal,
@@ -52,7 +53,7 @@ impl Unsound {
     }
 }
 
-/// Checks a partition, except for its nouns.
+/// Checks a partition of the mechanics' ports (open roles), except for its nouns.
 ///
 /// # Errors
 /// Returns the first unmet condition.
@@ -123,7 +124,7 @@ fn has_honest_goal(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Returns `true` if the ports of a type make opposed demands on the player, so that meeting one demand has a price.
+/// Returns `true` if the type's uses are opposed, so that using the type for one purpose has a price.
 pub(crate) fn is_opposed(merged: &Merged) -> bool {
     let ports = &merged.ports;
     let across = |one: Tag, other: Tag| {
@@ -168,8 +169,8 @@ pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usiz
     (12 * types.iter().map(score).sum::<usize>() / mechanics.len().max(1)).min(ENOUGH)
 }
 
-/// Returns `true` if the player can influence a mover in a way other than avoiding it. The player must be able to lead
-/// a mover that has to be brought to a place.
+/// Returns `true` if the player can influence a mover in a way other than avoiding it. If a mover has to be brought to
+/// a place, the player must be able to guide it there.
 fn is_influenced(merged: &Merged) -> bool {
     let is_affected = [Tag::Removed, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag));
     merged.body != Body::Mover || merged.has(Tag::Led) || (is_affected && !merged.has(Tag::Brought))
@@ -208,7 +209,8 @@ fn visible(mechanics: &[&'static Mechanic], types: &[Merged]) -> usize {
     types.len() + own.filter(|own| own.body != Body::Flash).count()
 }
 
-/// Returns `true` if at most one type fills more than two ports, and none fills more than three.
+/// Returns `true` if at most one type fills more than two ports (open roles of mechanics), and none fills more than
+/// three.
 fn are_few_crowded(types: &[Merged]) -> bool {
     let crowded = types.iter().filter(|merged| merged.ports.len() > 2).count();
     crowded <= 1 && types.iter().all(|merged| merged.ports.len() <= 3)

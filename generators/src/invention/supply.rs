@@ -9,7 +9,8 @@ use base::Seed;
 ///
 /// A rule set is a choice of mechanics and an ending. For each number of mechanics, the choices are counted exactly,
 /// and the fraction that can be built is estimated from uniformly drawn choices. The result is a lower bound on the
-/// number of distinct rules, because the ports of most choices can be merged in several ways.
+/// number of distinct rules, because the ports (the mechanics' open roles) of most choices can be merged in several
+/// ways.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InventionSupply {
     strata: Vec<Stratum>,
@@ -24,7 +25,8 @@ struct Stratum {
 }
 
 impl InventionSupply {
-    /// Estimates the supply from `samples` choices for each number of mechanics. Cost: about 2 milliseconds per choice.
+    /// Estimates the number of rule sets from `samples` choices for each number of mechanics. Cost: about 2
+    /// milliseconds per choice.
     pub fn estimate(config: &InventionConfig, samples: u64, seed: Seed) -> InventionSupply {
         let [mechanics, endings] = [false, true].map(|are| Mechanic::endings(are).count() as f64);
         let stratum = |count: usize| {
@@ -46,12 +48,12 @@ impl InventionSupply {
         self.strata.iter().map(sets).sum()
     }
 
-    /// Returns the total number of choices, sound or not.
+    /// Returns the total number of choices, including choices that cannot become a game.
     pub fn choices(&self) -> f64 {
         self.strata.iter().map(|stratum| stratum.choices).sum()
     }
 
-    /// Returns the fraction of the drawn choices that were sound.
+    /// Returns the fraction of the drawn choices that can become a game.
     pub fn sound_share(&self) -> f64 {
         let [drawn, sound] = [|of: &Stratum| of.drawn, |of: &Stratum| of.sound]
             .map(|count| self.strata.iter().map(count).sum::<u64>() as f64);

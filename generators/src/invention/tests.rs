@@ -16,7 +16,8 @@ pub(super) fn mechanics(names: &[&str]) -> Vec<&'static Mechanic> {
     names.iter().map(named).collect()
 }
 
-/// Returns the partition that merges the given pairs of ports, such as `("feed.food", "lock.key")`.
+/// Returns the partition that merges the given pairs of ports (open roles of mechanics), such as `("feed.food",
+/// "lock.key")`.
 pub(super) fn partition(mechanics: &[&'static Mechanic], merges: &[(&str, &str)]) -> Vec<u8> {
     let names: Vec<String> = ports(mechanics)
         .iter()

@@ -15,7 +15,7 @@ const ATTEMPTS: usize = 64;
 enum Change {
     /// Redraws a mechanic's numbers.
     Number,
-    /// Changes the type of a port.
+    /// Changes the type that fills a port (an open role of a mechanic).
     Merge,
     /// Replaces a mechanic with a different one.
     Mechanic,
@@ -35,12 +35,13 @@ pub struct InventionVariation {
 }
 
 impl InventionVariation {
-    /// Creates a variation that prefers the mechanics, endings and couplings with the lowest counts in the census.
+    /// Creates a variation that prefers the mechanics, endings and merged pairs of ports (open roles) with the lowest
+    /// use counts in the census.
     pub fn new(config: InventionConfig, census: Census) -> InventionVariation {
         InventionVariation { config, census }
     }
 
-    /// Returns a genome with one change of the given kind, if the result is sound.
+    /// Returns a genome with one change of the given kind, if the result can become a game.
     fn changed(&self, parent: &Invention, kind: Change, sampler: &mut Sampler) -> Option<Invention> {
         let mut child = parent.clone();
         match kind {
@@ -68,8 +69,8 @@ impl InventionVariation {
 }
 
 impl Invention {
-    /// Returns the same invention with a different mechanic at the given index. The ports of the new mechanic are
-    /// merged from scratch.
+    /// Returns the same invention with a different mechanic at the given index. The ports (open roles) of the new
+    /// mechanic are merged from scratch.
     fn replaced(&self, at: usize, mechanic: &'static Mechanic, sampler: &mut Sampler) -> Option<Invention> {
         let mut mechanics = self.mechanics.clone();
         if mechanics.iter().any(|other| other.name == mechanic.name) {
@@ -138,8 +139,8 @@ mod tests {
     use crate::{Annealing, AnnealingConfig, Evaluation, MapElites, MapElitesConfig, Search};
     use std::collections::{BTreeMap, BTreeSet};
 
-    /// Requests candidates from a search, checks that each is sound and can be built, and returns the number of
-    /// different candidates.
+    /// Requests candidates from a search, checks that each passes the static conditions and can be built, and returns
+    /// the number of different candidates.
     fn check(mut search: impl Search<Candidate = Invention>) -> usize {
         let mut keys = BTreeSet::new();
         for _ in 0..4 {

@@ -1,4 +1,5 @@
-//! Composition of a game's rules and texts from a kernel, the kernel's numbers and a scene.
+//! Composition of a game's rules and texts from three sources: a kernel (a hand-written game design), the kernel's
+//! numbers, and a scene, which supplies the nouns.
 
 use super::course::{self, Board, Space, Traits};
 use super::habits::{Edge, Habits};
@@ -17,7 +18,7 @@ use engine::Description;
 use engine::syntax::{self, MappingLine, Param, SpriteLine};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The choices that turn a kernel into a game.
+/// The choices that turn a kernel (a hand-written game design) into a game.
 #[derive(Clone, Debug)]
 pub(crate) struct Choices<'a> {
     pub(crate) kernel: &'static Kernel,
@@ -54,20 +55,20 @@ pub struct Course {
     symbols: BTreeMap<String, char>,
 }
 
-/// A level of a course, before anyone has played it.
+/// A level of a course (a game's levels in order of difficulty), before anyone has played it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CourseLevel {
     /// The level, in the game's characters.
     pub text: String,
-    /// The level's slot in the course.
+    /// The level's purpose in the course, such as introducing the rules.
     pub slot: Slot,
-    /// The level's question to the player, as one sentence.
+    /// A sentence about the problem that the level poses to the player.
     pub asks: String,
 }
 
 impl Course {
-    /// Builds a level for a slot: draws one of the slot's maps, lays it out and furnishes it. Cost: about a
-    /// millisecond.
+    /// Builds a level for a position in the course: draws one of the position's maps, lays it out and places the
+    /// sprites. Cost: about a millisecond.
     ///
     /// # Errors
     /// Returns an error if no layout of the map has room for everything.
@@ -234,7 +235,7 @@ impl Choices<'_> {
         picture_lines(lines, &roles, nouns);
     }
 
-    /// Writes the LevelMapping: floor, walls and the hero, followed by all other types that levels place.
+    /// Writes the LevelMapping: floor, walls and the avatar, followed by all other types that levels place.
     fn map_symbols(
         &self,
         description: &mut Description,
@@ -254,7 +255,7 @@ impl Choices<'_> {
             .flat_map(|line| line.second.iter().chain([&line.first]))
             .map(|word| word.text.as_str())
             .collect();
-        // The language maps a type called `avatar` to `A`. In some kernels, a group of heroes has that name.
+        // The language maps a type called `avatar` to `A`. In some kernels, a group of avatar types has that name.
         let hero = match names["hero"].as_str() {
             name if name != "avatar" && own.iter().all(|own| own != "avatar") => palette::symbol(name, &[]),
             _ => 'A',

@@ -14,20 +14,21 @@ use std::collections::BTreeSet;
 /// The tick limit of a game whose levels have not been played yet.
 const LONG: u32 = 400;
 
-/// The weight of a form relative to the kernel itself. It is greater than 1 because the forms were written to vary the
-/// endings of similar kernels.
+/// The weight of a form (a variation of a kernel) relative to the kernel itself. It is greater than 1 because the forms
+/// were written to vary the endings of similar kernels.
 const OTHER_FORM: u32 = 2;
 
 /// A game and the maps for its levels.
 #[derive(Clone, Debug)]
 pub struct KernelGame {
-    /// The game. Its patterns are the kernel, the variants and the scene.
+    /// The game. Its patterns are the kernel (the hand-written design), the variants and the scene (the theme).
     pub game: GeneratedGame,
     /// The maps for the game's levels.
     pub course: Course,
 }
 
-/// A game as a list of choices: a kernel with its variants and numbers, and a scene with its nouns.
+/// A game as a list of choices: a kernel (a hand-written design) with its variants and numbers, and a scene (a theme)
+/// with its nouns.
 ///
 /// The same genome builds the same game on every machine.
 #[derive(Clone, Debug)]
@@ -45,7 +46,7 @@ pub struct KernelGenome {
 }
 
 impl KernelGenome {
-    /// Draws a kernel of one of the given kinds, with its numbers and a scene.
+    /// Draws a kernel of one of the given kinds, with its numbers and a scene, which supplies the nouns.
     ///
     /// # Errors
     /// Returns an error if no kernel of these kinds has a scene.

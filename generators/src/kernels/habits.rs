@@ -29,7 +29,7 @@ pub(crate) enum Edge {
     Screen,
 }
 
-/// The colours available to heroes.
+/// The colours available to avatars.
 const HEROES: [&str; 8] = ["BLUE", "BLUE", "BLUE", "GREEN", "GREEN", "YELLOW", "WHITE", "PINK"];
 /// The classes of stationary types.
 pub(super) const STILL: [&str; 6] = ["Immovable", "Passive", "Resource", "Door", "Conveyor", "Portal"];
@@ -67,8 +67,8 @@ impl Habits {
     }
 }
 
-/// Removes the penalty for the hero's death, because that death ends the game anyway. A penalty for a repeatable action
-/// is preserved as the price of that action.
+/// Removes the penalty for the avatar's death, because that death ends the game anyway. A penalty for a repeatable
+/// action is preserved as the price of that action.
 fn drop_penalty_of_death(line: &mut InteractionLine) {
     let is_penalty = |param: &Param| param.key.text == "scoreChange" && param.value.text.starts_with('-');
     if line.first.text == "hero" && line.effect.text.starts_with("kill") {
@@ -102,7 +102,7 @@ fn stop_at_edge(description: &mut Description) -> Option<()> {
     }
     let all_stop = stopped.values().all(|&ends| ends)
         && description.sprites.iter().all(|line| all_stop(line, None, false, &stopped));
-    // A sprite that the hero creates at the edge appears beyond it, so it has no position to step back to.
+    // A sprite that the avatar creates at the edge appears beyond it, so it has no position to step back to.
     let dies = |stype: &str| {
         let of_edge = |line: &&InteractionLine| line.first.text == stype && line.second[0].text == "EOS";
         let mut effects = interactions.iter().filter(of_edge).map(|line| line.effect.text.as_str());

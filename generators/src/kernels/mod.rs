@@ -1,8 +1,8 @@
-//! Games composed around a dilemma, from kernels and scenes, with levels that form a course.
+//! Games composed around a dilemma, with a course of levels that become harder.
 //!
-//! A kernel (`file/kernel.rs`, files in `generators/kernels/`) contains the rules for one dilemma and the maps for
-//! its levels. A scene (`words/scene.rs`, files in `generators/scenes/`) contains the nouns. [`KernelGenome`] draws
-//! both, `compose.rs` composes the rules and texts, and `course/` builds levels from maps.
+//! A kernel (`file/kernel.rs`, files in `generators/kernels/`) is a hand-written design: the rules for one dilemma and
+//! the maps for its levels. A scene (`words/scene.rs`, files in `generators/scenes/`) supplies the nouns of a theme.
+//! [`KernelGenome`] draws both, `compose.rs` composes the rules and texts, and `course/` builds levels from maps.
 
 mod compose;
 mod course;

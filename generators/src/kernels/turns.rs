@@ -1,4 +1,4 @@
-//! The order in which kernels take turns in a set of games.
+//! The order in which kernels (hand-written game designs) take turns in a set of games.
 
 use crate::games::Kind;
 use crate::kernels::file::kernel::Kernel;
@@ -14,8 +14,8 @@ pub fn kinds() -> impl Iterator<Item = Kind> {
     Kind::ALL.iter().copied().filter(has_kernel)
 }
 
-/// The order in which kernels take turns. Each kernel has one turn before any kernel has a second, and kinds
-/// alternate.
+/// The order in which kernels (hand-written game designs) take turns. Each kernel has one turn before any kernel has a
+/// second, and kinds alternate.
 #[derive(Clone, Debug)]
 pub struct Turns {
     order: Vec<&'static Kernel>,

@@ -23,7 +23,7 @@ base::with_defaults! {
         /// aids.
         pub difficulty: f64 = 0.5,
         /// The minimum and maximum fraction of cells that contain more than floor, from 0.0 to 1.0. The limits are met
-        /// only as far as the rules leave room.
+        /// only as far as there is space for sprites.
         pub cover: Option<(f64, f64)> = None,
         /// The exact numbers of sprites for some types, as far as there is room.
         #[serde(skip)]

@@ -109,8 +109,9 @@ impl Placement {
         self.each.push(own);
     }
 
-    /// Derives the companions. Must be called after all examples have been recorded. `total` counts the sprites of a
-    /// type in all `cells`, and `plain` selects types that occur everywhere.
+    /// Derives the companions, which are types that almost always stand next to each other. Must be called after all
+    /// examples have been recorded. `total` counts the sprites of a type in all `cells`, and `plain` selects types that
+    /// occur everywhere.
     pub(crate) fn conclude(
         &mut self,
         cells: usize,
@@ -119,8 +120,8 @@ impl Placement {
     ) {
         let seen = self.seen;
         let telling = |&(&(_, other), &count): &(&(usize, SpriteType), &usize)| {
-            // A companion must occur at least four times out of five, and much more often than expected by chance. The
-            // margin is larger if there are few samples.
+            // A companion (a type that stands next to another type) must occur at least four times out of five, and
+            // much more often than expected by chance. The margin is larger if there are few samples.
             let lift = if seen >= 3 { 3 } else { 10 };
             count * 5 >= seen * 4 && count * cells >= lift * total(other) * seen && !plain(other)
         };

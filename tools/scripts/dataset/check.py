@@ -41,7 +41,7 @@ def arrow_type(feature):
 
 
 def plain(kind):
-    """Returns a type without the names of list elements and without nullability, in which readers differ."""
+    """Returns a type without the names of list elements and without nullability, in which Parquet libraries differ."""
     if pyarrow.types.is_list(kind) or pyarrow.types.is_large_list(kind):
         return pyarrow.list_(plain(kind.value_type))
     if pyarrow.types.is_struct(kind):

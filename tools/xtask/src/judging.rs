@@ -10,12 +10,12 @@ use report::{Share, Table, TableCell};
 use std::collections::{BTreeMap, BTreeSet};
 use validators::{Criteria, Criterion, CriterionSet, Effort, Judging, Panel, Report};
 
-/// Judges candidates for levels of generated games both sequentially and in full, with the same randomness,
-/// and counts the verdicts that differ.
+/// Judges candidates for levels of generated games both sequentially and in full, with the same randomness, and counts
+/// the verdicts that differ.
 ///
-/// Minting stops random play once it is certain that the level is rejected, and stops the ladder's episodes once the
-/// answer is almost certain. Prints a table of the verdicts, with one row per kind, and the number of calls of both
-/// methods. Cost: about a second on one core per candidate.
+/// Minting stops random play once it is certain that the level is rejected, and stops the reference players' episodes
+/// once the answer is almost certain. Prints a table of the verdicts, with one row per kind, and the number of calls of
+/// both methods. Cost: about a second on one core per candidate.
 ///
 /// Example: cargo xtask judging --candidates 2000
 #[derive(clap::Args)]

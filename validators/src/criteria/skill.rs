@@ -11,11 +11,12 @@ use engine::Outcome;
 use statistics::{Interval, Z95};
 
 /// Passes if stronger players win more, or score more, than players that do not look ahead. The difference must reach a
-/// margin and be significant, which means that its 95% interval is above 0. Both a ladder player and a held-out player
-/// must show the difference, so that a level is not fitted to the players that guided the search for it.
+/// margin and be significant, which means that its 95% interval is above 0. Two players must show the difference: one
+/// on the ladder of reference players, and one held-out player. Otherwise, a level could be fitted to the players that
+/// guided the search for it.
 ///
 /// On a deterministic level, a witness counts as a held-out player that always wins. A puzzle that is too deep for
-/// every ladder player can therefore still show skill, if players that do not look ahead lose it.
+/// every player on the ladder can therefore still show skill, if players that do not look ahead lose it.
 #[derive(Clone, Debug)]
 pub(crate) struct SkillPays {
     /// The players, and the limits on their episodes.
@@ -71,11 +72,11 @@ struct Advantage {
 /// The answer given by the episodes so far.
 struct Answer {
     ladder: Ladder,
-    /// The ladder players' advantages, followed by the held-out players' advantages.
+    /// The advantages of the reference players on the ladder, followed by the advantages of the held-out players.
     advantages: [Vec<Advantage>; 2],
     /// `true` if a win is known.
     won: bool,
-    /// `true` if a ladder player shows skill.
+    /// `true` if a reference player on the ladder shows skill.
     shown: bool,
     /// `true` if a held-out player shows skill.
     accepted: bool,
@@ -231,7 +232,7 @@ impl SkillPays {
     }
 }
 
-/// Compares two rungs by wins, and then by mean score.
+/// Compares two reference players by wins, and then by mean score.
 fn better(ladder: &Ladder, a: usize, b: usize) -> std::cmp::Ordering {
     let (a, b) = (&ladder.rungs[a].rate, &ladder.rungs[b].rate);
     a.wins.cmp(&b.wins).then(a.mean_score.total_cmp(&b.mean_score))

@@ -8,13 +8,13 @@ use crate::verdict::{Finding, Verdict};
 use engine::{Episode, Outcome};
 use statistics::{Interval, Z95, wilson};
 
-/// Passes if, across all levels together, the strongest ladder player and the strongest held-out player both win more
-/// often than the best player that does not look ahead. Even the lower end of Newcombe's 95% interval of the difference
-/// must reach the margin. The episodes on a single level are too few for such a test, but those on five levels are
-/// enough.
+/// Passes if two players both win more often, across all levels together, than the best player that does not look
+/// ahead. The two are the strongest player on the ladder of reference players, and the strongest held-out player. Even
+/// the lower end of Newcombe's 95% interval of the difference must reach the margin. The episodes on a single level are
+/// too few for such a test, but those on five levels are enough.
 ///
-/// If all levels are deterministic and have a known win, a player that knows the solutions counts both as a ladder
-/// player and as a held-out player. The criterion has no extra cost, because its episodes come from the criterion
+/// If all levels are deterministic and have a known win, a player that knows the solutions counts both as a player on
+/// the ladder and as a held-out player. The criterion has no extra cost, because its episodes come from the criterion
 /// `skill`.
 #[derive(Clone, Copy, Debug)]
 pub struct SkillOverall {
@@ -116,8 +116,8 @@ impl SkillOverall {
     }
 }
 
-/// Returns the best player that does not look ahead, and the strongest ladder player and held-out player, or
-/// `None` if any of the three is missing.
+/// Returns the best player that does not look ahead, the strongest player on the ladder of reference players, and the
+/// strongest held-out player. Returns `None` if any of the three is missing.
 fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     let rungs = totals(ladders, |ladder| &ladder.rungs);
     let held_out = totals(ladders, |ladder| &ladder.held_out);
@@ -134,7 +134,7 @@ fn sides(ladders: &[&Ladder], planned: bool) -> Option<(Total, [Total; 2])> {
     Some((baseline, sides))
 }
 
-/// Sums each player's results over all levels. All ladders must have the same players.
+/// Sums each reference player's results over all levels. All levels must have been played by the same players.
 fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Vec<Total> {
     let first = ladders.first().map_or(&[][..], |ladder| of(ladder));
     let total = |(at, result): (usize, &PlayerResult)| {

@@ -9,16 +9,16 @@ use engine::analysis::{Harm, Motion, Role};
 use engine::{Analysis, Episode, Meeting, Outcome, SpriteType, Watch};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Passes if two conditions are met. Self-moving sprites, not counting the player's shots, must sweep an average of at
-/// least [`Gates::sweep`] cells each. On at least [`Gates::met_levels`] of the levels with such sprites, one of them
-/// must also enter (or come next to) a cell on the win's route, and come next to the player. If contact with such
-/// sprites can kill, a third condition applies: they must cause at least [`Gates::foe_losses`] of careless players'
-/// losses.
+/// Passes if self-moving sprites, not counting the player's shots, sweep an average of at least [`Gates::sweep`] cells
+/// each. In addition, on at least [`Gates::met_levels`] of the levels with such sprites, one of them must enter (or
+/// come next to) a cell on the win's route, and come next to the player. If contact with such sprites can kill, they
+/// must also cause at least [`Gates::foe_losses`] of the losses of careless players. Careless players head for the
+/// nearest goal, but press a random key in some ticks.
 ///
-/// The sprites are observed in the shortest known wins and in careless episodes. A sprite counts if it lived
-/// for twenty ticks. Such sprites cause a loss if the avatar meets one of them, or one of their products, in
-/// the tick of the loss. Games without self-moving sprites pass. Costs the careless episodes, and an
-/// inspection of all sprites in each tick.
+/// The sprites are observed in the shortest known wins and in the careless players' episodes. A sprite counts if it
+/// lived for twenty ticks. Such sprites cause a loss if the avatar meets one of them, or one of their products, in the
+/// tick of the loss. Games without self-moving sprites pass. Costs the careless players' episodes, and an inspection of
+/// all sprites in each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct ActorsMatter(Gates);
 
@@ -101,7 +101,7 @@ struct Actors<'a> {
     moves: Vec<bool>,
     /// For each type, `true` if it is self-moving or created by a self-moving type.
     foes: Vec<bool>,
-    /// `true` if contact with at least one type of foe is harmful.
+    /// `true` if contact with at least one self-moving type, or with a type that it creates, is harmful.
     deadly: bool,
 }
 
@@ -116,7 +116,7 @@ struct Watched {
     crossed: bool,
     /// `true` if a self-moving sprite came next to the avatar.
     near: bool,
-    /// `true` if the avatar met a foe in the last tick.
+    /// `true` if the avatar met a self-moving sprite, or a sprite created by one, in the last tick.
     last: bool,
 }
 
@@ -188,7 +188,7 @@ fn next_to((x, y): (i32, i32), (u, v): (i32, i32)) -> bool {
     (x - u).abs() + (y - v).abs() <= 1
 }
 
-/// A watcher that detects the avatar's contacts with foes.
+/// A watcher that detects the avatar's contacts with self-moving sprites, and with sprites that they create.
 struct Meetings<'a> {
     actors: &'a Actors<'a>,
     any: bool,

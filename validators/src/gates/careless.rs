@@ -1,4 +1,4 @@
-//! Careless players: nearest-goal players that press a random key in some of their ticks.
+//! Careless players, which head for the nearest goal ([`NearestGoal`]) but press a random key in some ticks.
 
 use super::Gates;
 use agents::{Budget, Limits, NearestGoal, play};
@@ -16,7 +16,8 @@ const GRACE: usize = 50;
 /// a closer evaluation before it fails because of only a few episodes.
 pub(super) const CLOSER: u32 = 4;
 
-/// The careless players' episodes. They are played when a gate first requests them, and all gates share them.
+/// The episodes of careless players, which press a random key in some ticks. They are played when a gate first requests
+/// them, and all gates share them.
 pub(crate) struct CarelessPlays<'a> {
     game: &'a Game,
     seed: Seed,
@@ -32,14 +33,14 @@ impl<'a> CarelessPlays<'a> {
         CarelessPlays { game, seed, levels: plays, closer }
     }
 
-    /// Returns the careless players' episodes on a level. The first call costs one forward-model call per action and
-    /// tick.
+    /// Returns the episodes on a level by careless players, which press a random key in some ticks. The first call
+    /// costs one forward-model call per action and tick.
     pub(super) fn plays(&self, won: WonLevel<'_>, gates: &Gates) -> &[Episode] {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }
 
-    /// Returns the careless players' win rate on a level, measured over [`CLOSER`] times the usual number of episodes.
-    /// The first call costs these episodes.
+    /// Returns the win rate of careless players on a level, measured over [`CLOSER`] times the usual number of
+    /// episodes. The first call costs these episodes.
     pub(super) fn closer_win_share(&self, won: WonLevel<'_>, gates: &Gates) -> f64 {
         *self.closer[won.number].get_or_init(|| {
             let first = gates.careless_plays;
@@ -89,8 +90,8 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// Returns the fraction of a level's careless episodes that the rules end with a win or a loss. All other episodes get
-/// stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
+/// Returns the fraction of a level's episodes by careless players that the rules end with a win or a loss. All other
+/// episodes get stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;
     let plays = nearest_goal(game, level, win.actions.len(), gates.careless_slips, numbers, seed);

@@ -1,4 +1,5 @@
-//! The removable elements of a game: rules except guards, and placed types.
+//! The removable elements of a game: placed types, and rules except guards, which only keep sprites on the board and
+//! out of walls.
 
 use crate::evidence::{Evidence, Line};
 use crate::measures::Guards;

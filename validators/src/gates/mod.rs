@@ -1,5 +1,5 @@
-//! Gates are criteria that measure what people notice when they play a game's levels in order.
-//! `docs/reference/gates.md` explains each gate, with the evidence for its thresholds.
+//! Gates: criteria that measure what people notice when they play a game's levels in order. `docs/reference/gates.md`
+//! explains each gate, with the evidence for its thresholds.
 //!
 //! A gate examines the shortest known win of each level. Levels without a known win are skipped. The figure in a
 //! finding is intended for tables; see [`Finding::figure`].
@@ -41,7 +41,7 @@ fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     (!won.is_empty()).then_some(won)
 }
 
-/// Returns the finding of a gate that has nothing to judge.
+/// Returns an unknown verdict, with the reason why the gate does not apply to the game.
 fn without_subject(why: &str) -> Finding {
     Finding::from(Verdict::Unknown { spent: 0 }).seen([Evidence::new(why)])
 }
@@ -58,7 +58,8 @@ fn finding(problems: Vec<Evidence>, notes: Vec<Evidence>, figure: Option<f64>) -
     Finding { figure, ..Finding::from(verdict).seen(problems).seen(notes) }
 }
 
-/// Returns the finding for a gate that makes a single statement. The statement is a problem unless the game passes.
+/// Returns the finding for a gate that makes a single statement. If the game fails, the statement is the problem; if
+/// the game passes, it is a note.
 fn measured(passes: bool, seen: Evidence, figure: f64) -> Finding {
     match passes {
         true => finding(Vec::new(), vec![seen], Some(figure)),

@@ -16,15 +16,15 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards, and placed
-/// types, except avatars, walls, the background and types that an ending counts. An element matters if, on at least
-/// [`Gates::needed_levels`] of the levels on which it occurs, the game without it meets one of the following
-/// conditions. The cheapest condition is tested first:
+/// Passes if at least [`Gates::needed_share`] of the elements matter. Elements are rules, except guards (which only
+/// keep sprites on the board), and placed types, except avatars, walls, the background and types that an ending counts.
+/// An element matters if, on at least [`Gates::needed_levels`] of the levels on which it occurs, the game without it
+/// meets one of the following conditions. The cheapest condition is tested first:
 ///
 /// 1. the shortest known win no longer wins, or wins earlier by [`Gates::plan_change`], so that different actions are
 ///    needed;
-/// 2. at least [`Gates::plan_change`] of the careless episodes change between win and loss, so that players who do not
-///    foresee everything do better or worse;
+/// 2. at least [`Gates::plan_change`] of the episodes of careless players (which press a random key in some ticks)
+///    change between win and loss;
 /// 3. a search that foresees the random draws of the win finds a much shorter win. It must be shorter by
 ///    [`Gates::plan_change`] than both the known win and the win that the search finds with the element.
 ///
@@ -33,8 +33,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// idle by proving the shortest wins with and without it.
 ///
 /// Removing a moving type shifts the random draws of a stochastic game, so the known win is not replayed without the
-/// type. Costs the replays and the careless episodes. For each element that they do not show to matter, also costs a
-/// search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
+/// type. Costs the replays and the careless players' episodes. For each element that they do not show to matter, also
+/// costs a search with [`Gates::needed_calls`] calls on each of the element's levels until the answer is certain.
 #[derive(Clone, Debug)]
 pub(crate) struct Necessity(Gates);
 
@@ -131,7 +131,7 @@ struct Shortest {
     sure: bool,
 }
 
-/// A level with its win and its careless episodes.
+/// A level with its win, and with its episodes by careless players, which press a random key in some ticks.
 struct Subject<'a> {
     won: WonLevel<'a>,
     careless: &'a [Episode],

@@ -12,17 +12,17 @@ use engine::{Analysis, Episode, Game, Level, SpriteClass, SpriteType, Term};
 
 /// Passes if each level after the first meets two conditions:
 ///
-/// - The shortest known win takes at least [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of
-///   the slowest spawner on the level.
-/// - The nearest-goal player ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its episodes. If
-///   it wins more, it plays four times as many episodes.
+/// - The shortest known win takes at least [`Gates::least_win`] ticks and [`Gates::spawn_periods`] periods of the
+///   slowest spawner on the level.
+/// - The nearest-goal player ([`agents::NearestGoal`]) wins at most [`Gates::bot_wins`] of its episodes. If it wins
+///   more, it plays four times as many episodes.
 ///
 /// Up to a fraction [`Gates::instant_levels`] of these levels may be exceptions. In addition, the game's time limit
 /// must be within [`Gates::time_limit`] times the longest known win.
 ///
-/// A spawner counts if the level places it and its sprites can do harm, are needed for an ending or give
-/// something. Its period is the mean time between two sprites: its cooldown divided by its probability. The
-/// time limit does not matter in games won by surviving. Costs the nearest-goal player's episodes.
+/// A spawner (a sprite that creates others) counts if the level places it and its sprites can do harm, are needed for
+/// an ending or give something. Its period is the mean time between two sprites: its cooldown divided by its
+/// probability. The time limit does not matter in games won by surviving. Costs the nearest-goal player's episodes.
 #[derive(Clone, Debug)]
 pub struct NotInstant(pub Gates);
 
@@ -86,8 +86,8 @@ impl GameValidator for NotInstant {
 impl NotInstant {
     /// Returns `true` if the nearest-goal player wins a level more often than the gate allows on levels after the
     /// first. The player may take as long as if the known win took `ticks` ticks. This check does not need a known win,
-    /// so it can reject a level before a win search. It does not include the gate's closer evaluation. Costs the
-    /// player's episodes.
+    /// so it can reject a level before a win search. It does not include the gate's second evaluation, which plays more
+    /// episodes. Costs the player's episodes.
     pub fn is_walked_through(&self, game: &Game, level: &Level, ticks: usize, seed: Seed) -> bool {
         NotInstant::nearest_goal_wins(game, level, ticks, self.0.bot_plays, seed) > self.0.bot_wins
     }

@@ -8,21 +8,22 @@ use crate::validator::{GameCase, GameValidator};
 use crate::verdict::Finding;
 use std::collections::BTreeSet;
 
-/// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions
-/// executed in its shortest known win, not counting guards. There are three conditions:
+/// Passes if the mechanics needed to win grow over the levels. A level's mechanics are the interactions executed in its
+/// shortest known win, not counting guards (rules that only keep sprites on the board). There are three conditions:
 ///
 /// - At least [`Gates::growth`] levels need mechanics that no earlier level needed.
-/// - The last level needs as many mechanics as the first, and at least [`Gates::last_share`] of all mechanics
-///   needed on any level.
+/// - The last level needs as many mechanics as the first, and at least [`Gates::last_share`] of all mechanics needed on
+///   any level.
 /// - The last level is not easier than either of the first two by more than [`Gates::easier`].
 ///
-/// If a ladder was played on every level, the ease of a level is its ease for the ladder. If not, it is the win rate of
-/// careless players, with four times as many episodes if the last level seems easier. Games with fewer than three
-/// levels have no progression to judge. Costs one replay of each win, and the careless episodes.
+/// If a ladder (reference players of increasing strength) played every level, the ease of a level is its ease for these
+/// players. If not, it is the win rate of careless players, which press a random key in some ticks. They play four
+/// times as many episodes if the last level seems easier. Games with fewer than three levels have no progression to
+/// judge. Costs one replay of each win, and the careless players' episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Progression(Gates);
 
-/// The minimum number of levels in a course.
+/// The minimum number of levels that a game needs for a progression.
 const COURSE: usize = 3;
 
 pub(crate) const QUESTION: &str =
@@ -93,8 +94,8 @@ impl GameValidator for Progression {
 }
 
 impl Progression {
-    /// Returns the levels' ease, from 0 to 1. If careless episodes measure the ease and the first episodes count
-    /// against the game, evaluates the compared levels more closely.
+    /// Returns the levels' ease, from 0 to 1. If the ease is the win rate of careless players and the first episodes
+    /// count against the game, plays more episodes on the compared levels.
     fn eases(&self, case: GameCase<'_>, wins: &[super::WonLevel<'_>]) -> Vec<f64> {
         let of_ladder = |won: &super::WonLevel<'_>| case.ladders.get(won.number).copied().flatten()?.ease;
         let known: Option<Vec<f64>> = wins.iter().map(of_ladder).collect();

@@ -39,19 +39,21 @@ base::with_defaults! {
         /// `actors-matter`: the minimum fraction of levels with self-moving sprites on which these sprites come next to
         /// the player.
         pub met_levels: f64 = 0.5,
-        /// `actors-matter`: the minimum fraction of careless players' losses that deadly foes cause.
+        /// `actors-matter`: the minimum fraction of the losses of careless players (see `careless_plays`) that deadly
+        /// sprites cause.
         pub foe_losses: f64 = 0.1,
         /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, as a mean over the
         /// levels.
         pub spare: (f64, f64) = (0.0, 0.5),
         /// `tight`, `progression`, `actors-matter`, `necessity`: the number of episodes of careless players per level.
+        /// They head for the nearest goal, but press a random key in some ticks.
         pub careless_plays: u32 = 8,
-        /// The fraction of ticks in which a careless player presses a random key.
+        /// The fraction of ticks in which a careless player (see `careless_plays`) presses a random key.
         pub careless_slips: f64 = 0.25,
-        /// `tight`: the maximum fraction of careless episodes that may be won.
+        /// `tight`: the maximum fraction of their episodes that careless players (see `careless_plays`) may win.
         pub careless_wins: f64 = 0.5,
-        /// `necessity`: the minimum relative change in the length of a win, or the minimum fraction of careless
-        /// episodes that end differently, at which an element matters.
+        /// `necessity`: the minimum relative change in the length of a win, or the minimum fraction of episodes of
+        /// careless players (see `careless_plays`) that end differently, at which an element matters.
         pub plan_change: f64 = 0.15,
         /// `necessity`: the minimum fraction of levels on which a rule or type must matter in order to count, among the
         /// levels on which it occurs.

@@ -1,4 +1,5 @@
-//! The `tight` gate: checks that a win uses most of the available resources, and that careless play fails.
+//! The `tight` gate: checks that a win uses most of the available resources, and that players who press a random key in
+//! some ticks rarely win.
 
 use super::{Gates, NO_WIN, WonLevel, careless, finding, without_subject, won_levels};
 use crate::allowance::Setting;
@@ -8,14 +9,14 @@ use crate::verdict::Finding;
 use engine::State;
 use engine::analysis::Resource;
 
-/// Passes if the fraction of consumables left after a win, averaged over the levels, is within
-/// [`Gates::spare`]. Careless players must also win at most [`Gates::careless_wins`] of their episodes on
-/// levels after the first. If they win more, they play four times as many episodes.
+/// Passes if the fraction of consumables left after a win, averaged over the levels, is within [`Gates::spare`].
+/// Careless players, which head for the nearest goal but press a random key in some ticks, must win at most
+/// [`Gates::careless_wins`] of their episodes on levels after the first. If they win more, they play four times as many
+/// episodes.
 ///
-/// A consumable is a resource that a rule takes, or that shots cost. Its supply is the amount that the avatar
-/// spends in the win, holds at the end, and could still collect from the board. Levels on which the win
-/// spends no consumables are skipped. Careless players walk to the nearest goal and slip
-/// ([`Gates::careless_slips`]). Costs one replay of each win, and the careless episodes.
+/// A consumable is a resource that a rule takes, or that shots cost. Its supply is the amount that the avatar spends in
+/// the win, holds at the end, and could still collect from the board. Levels on which the win spends no consumables are
+/// skipped. Costs one replay of each win, and the careless players' episodes.
 #[derive(Clone, Debug)]
 pub(crate) struct Tight(Gates);
 

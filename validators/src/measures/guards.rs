@@ -1,4 +1,5 @@
-//! Guards, which are interactions that keep sprites on the board and out of walls, and that hardly count as mechanics.
+//! Guards, which are interactions that only keep sprites on the board and out of walls, and that hardly count as
+//! mechanics.
 
 use super::families::EffectFamily;
 use crate::measures::is_guard;
@@ -28,7 +29,7 @@ enum GuardKind {
 }
 
 impl Guards {
-    /// Finds the guards. Cost: O(interactions × types).
+    /// Finds the guards, which only keep sprites on the board and out of walls. Cost: O(interactions × types).
     pub fn of(analysis: &Analysis) -> Guards {
         let game = analysis.game();
         let is_wall =
@@ -55,7 +56,8 @@ impl Guards {
         Guards { lines: game.description().interactions.iter().enumerate().map(kind).collect(), walls }
     }
 
-    /// Returns the lines that are only guards: indices into [`Description::interactions`](engine::Description).
+    /// Returns the lines that only keep sprites on the board and out of walls: indices into
+    /// [`Description::interactions`](engine::Description).
     pub fn lines(&self) -> impl Iterator<Item = usize> + '_ {
         let guards =
             |line: &usize| matches!(self.lines[*line], GuardKind::Edge | GuardKind::Block { walls: true });

@@ -232,13 +232,15 @@ pub struct GameKind {
     pub goal: GoalKind,
     /// The source of randomness.
     pub chance: ChanceKind,
-    /// The families of the interactions' effects, including guards, in [`EffectFamily`] order.
+    /// The families of the interactions' effects, including guards (rules that only keep sprites on the board), in
+    /// [`EffectFamily`] order.
     pub effects: Vec<EffectFamily>,
     /// The self-moving classes that can be present, in alphabetical order.
     pub npcs: Vec<String>,
     /// The classes that can be present and whose sprites create others by themselves, in alphabetical order.
     pub producers: Vec<String>,
-    /// The number of lines in the InteractionSet, not counting guards.
+    /// The number of lines in the InteractionSet, not counting guards (rules that only keep sprites on the board and
+    /// out of walls).
     pub interactions: usize,
     /// The number of lines that only keep sprites from leaving the board or going through walls; see [`Guards`].
     pub guards: usize,

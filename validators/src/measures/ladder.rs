@@ -1,4 +1,5 @@
-//! A ladder of players, from weak to strong, on one level: each player's win rate, and the resulting difficulty.
+//! A ladder of reference players, from weak to strong, on one level: each player's win rate, and the resulting
+//! difficulty.
 
 use crate::case::Case;
 use agents::{Limits, Play, ReferencePlanner, Stopped, play_until};
@@ -34,16 +35,16 @@ pub struct PlayerResult {
     pub rate: Rate,
     /// The mean number of ticks in the won episodes, or `None` if no episode was won.
     pub win_ticks: Option<f64>,
-    /// The mean score, scaled from 0 (lowest) to 1 (highest). The range covers the episodes of all rungs, but
-    /// not those of the held-out players. `None` if all scores are equal.
+    /// The mean score, scaled from 0 (lowest) to 1 (highest). The range covers the episodes of all players on the
+    /// ladder, but not those of the held-out players. `None` if all scores are equal.
     pub reward: Option<f64>,
 }
 
-/// The results of a ladder of players.
+/// The results of a ladder, which is a list of reference players of increasing strength, on one level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ladder {
-    /// The results of the ladder's players, from weakest to strongest, in the order of the criteria.
+    /// The results of the reference players on the ladder, from weakest to strongest, in the order of the criteria.
     pub rungs: Vec<PlayerResult>,
     /// The results of the players that are held out until acceptance.
     pub held_out: Vec<PlayerResult>,
@@ -114,10 +115,10 @@ impl fmt::Display for Difficulty {
     }
 }
 
-/// A ladder's players, and the limits on their episodes.
+/// The reference players of a ladder, and the limits on their episodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LadderConfig {
-    /// The ladder's players, from weakest to strongest.
+    /// The players, from weakest to strongest.
     pub rungs: Vec<ReferencePlanner>,
     /// The held-out players, which never guide a search.
     pub held_out: Vec<ReferencePlanner>,
@@ -137,7 +138,7 @@ const GRACE: usize = 50;
 /// The number of episodes per player in a round.
 const ROUND: u64 = 2;
 
-/// Each player's episodes, by number. The rungs come first, followed by the held-out players.
+/// Each player's episodes, by number. The players on the ladder come first, followed by the held-out players.
 pub(crate) struct LadderPlays {
     pub(crate) plays: Vec<Vec<Play>>,
 }

@@ -35,7 +35,7 @@ pub struct Measures {
     pub pressure: f64,
     /// The number of ticks in the shortest win, if it is proven to be the shortest.
     pub shortest: Option<usize>,
-    /// The advantage of looking ahead, if a ladder was played.
+    /// The advantage of looking ahead, if a ladder of reference players was played.
     pub skill: Option<SkillGap>,
 }
 
@@ -59,8 +59,8 @@ const FUTURES: u64 = 3;
 const MOMENTS: usize = 60;
 
 impl Measures {
-    /// Measures a judged level, with or without a played ladder. Returns `None` if the report does not
-    /// contain a witness. The same arguments give the same numbers on every machine.
+    /// Measures a judged level, with or without the results of a ladder of reference players. Returns `None` if the
+    /// report does not contain a witness. The same arguments give the same numbers on every machine.
     ///
     /// Costs a replay of the witness, and trials of every action at up to 60 of its ticks. There is one trial for
     /// branching, and three trials of up to [`FORESIGHT`] ticks for pressure. With five actions, the trials take at
@@ -116,7 +116,7 @@ impl Measures {
 }
 
 impl SkillGap {
-    /// Compares a ladder's players. Returns `None` unless some players look ahead and some do not.
+    /// Compares the reference players on a ladder. Returns `None` unless some players look ahead and some do not.
     pub fn of(ladder: &Ladder) -> Option<SkillGap> {
         let players = || ladder.rungs.iter().chain(&ladder.held_out);
         let gap = |value: &dyn Fn(&PlayerResult) -> Option<f64>| {
@@ -339,7 +339,7 @@ mod tests {
 
     #[test]
     fn branching_is_higher_in_open_space() {
-        // In a niche, all actions lead to the same state. In the open, five actions lead to five states.
+        // In a closed cell, all actions lead to the same state. In the open, five actions lead to five states.
         let caged = check("wwwwww\nwAw ow\nwww cw\nwwwwww\n", &[Up]);
         let free = check("wwwwww\nw    w\nw A  w\nw   ow\nw   cw\nwwwwww\n", &[Action::Nil]);
         assert!(caged.branching < free.branching && free.branching == 1.0, "{caged:?} {free:?}");

@@ -23,26 +23,27 @@ pub struct PlayMeasures {
     pub density: f64,
     /// The randomness, from 0 to 1: the fraction of actions, at some ticks, whose result differs between random seeds.
     pub chance: f64,
-    /// The total number of distinct interactions executed in won episodes, not counting guards.
+    /// The total number of distinct interactions executed in won episodes, not counting guards (rules that only keep
+    /// sprites on the board and out of walls).
     pub mechanics: usize,
     /// The planning depth in ticks, from 1 to [`SIGHT`](super::SIGHT). From a given moment, this is the look-ahead that
-    /// is needed to see that the episode is better than careless play, because it wins, does not lose, or scores more.
-    /// Careless play presses random keys, except keys that lose immediately. Moments from which careless play also wins
-    /// do not count, and the value is 0 if no moment counts.
+    /// is needed to see that the episode is better than random play, because it wins, does not lose, or scores more.
+    /// Random play presses random keys, except keys that lose immediately. Moments from which random play also wins do
+    /// not count, and the value is 0 if no moment counts.
     ///
     /// The value is low in a game that rewards every step or kills an inactive player. It is high in a game in which a
     /// good move looks like any other for a long time, or worse than a greedy one. The measure shows how far away the
     /// consequences are. Unlike the look-ahead that a planner requires, its cost does not grow with the branching
     /// factor.
     pub sight: f64,
-    /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of careless futures that win
-    /// minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean, over all moments, of the
-    /// square root of the player's deficit, which is 0 at moments at which the game does not lead. A game that careless
-    /// play can neither win nor lose has a drama of 0.
+    /// The despair on the way to a win, from 0 to 1. The lead at a moment is the fraction of continuations with random
+    /// keys that win, minus the fraction that lose within [`SIGHT`](super::SIGHT) ticks. Drama is the mean, over all
+    /// moments, of the square root of the player's deficit, which is 0 at moments at which the game does not lead. A
+    /// game that random play can neither win nor lose has a drama of 0.
     ///
-    /// The measure follows Browne and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with three
-    /// changes. The game is the opponent, careless futures give the value of a position, and the mean is
-    /// taken over all moments, so that a single bad moment does not make a drama.
+    /// The measure follows Browne and Maire ("Evolutionary game design", IEEE TCIAIG 2:1, 2010), with three changes.
+    /// The game is the opponent, continuations with random keys give the value of a position, and the mean is taken
+    /// over all moments, so that a single bad moment does not make a drama.
     pub drama: f64,
     /// The mean number of times that the lead changes sides on the way to the win. At the win, the player leads. This
     /// is Browne and Maire's *lead change*, but not divided by the number of moves.
@@ -91,8 +92,8 @@ impl PlayMeasures {
     }
 }
 
-/// Returns the interactions executed in an episode, not counting guards, as indices into
-/// [`Description::interactions`](engine::Description). Costs one replay of the episode.
+/// Returns the interactions executed in an episode, as indices into [`Description::interactions`](engine::Description).
+/// Guards, which only keep sprites on the board and out of walls, are not counted.
 pub(crate) fn mechanics(game: &Game, guards: &Guards, level: &Level, episode: &Episode) -> BTreeSet<usize> {
     let mut counter = Counter::new(guards);
     let mut state = game.start(level, episode.seed);
@@ -185,7 +186,7 @@ fn unsure(analysis: &Analysis, state: &State, seed: Seed) -> f64 {
     unsure as f64 / actions.len() as f64
 }
 
-/// A counter for executed interactions other than guards.
+/// A counter for executed interactions other than guards, which only keep sprites on the board and out of walls.
 struct Counter<'a> {
     guards: &'a Guards,
     executions: u64,

@@ -7,11 +7,12 @@ use engine::{Action, Game, Outcome, State};
 use serde::{Deserialize, Serialize};
 
 /// A greedy player that chooses the action that makes the most progress towards a win. Among equally good actions, it
-/// chooses the one that brings the avatar closest to a sprite that is needed for a win. The player looks only one
-/// tick ahead. It neither plans nor waits, and notices a danger only in an adjacent cell. A level that this player
-/// wins requires nothing but walking.
+/// chooses the one that brings the avatar closest to a sprite that is needed for a win. The player looks only one tick
+/// ahead. It neither plans nor waits, and notices a danger only in an adjacent cell. A level that this player wins
+/// requires nothing but walking.
 ///
-/// With `slips`, the player is careless: it presses a random key in that fraction of its ticks.
+/// The player presses a random key in the fraction `slips` of its ticks. If `slips` is not 0, the player is called
+/// *careless*.
 ///
 /// Cost: one forward-model call per available action, regardless of the budget.
 #[derive(Clone, Debug, Serialize, Deserialize)]

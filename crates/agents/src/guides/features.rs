@@ -59,7 +59,7 @@ impl Features {
         features
     }
 
-    /// Returns the number of atoms.
+    /// Returns the number of atoms, which are facts about a state such as the cell of a type's sprite.
     pub(crate) fn len(&self) -> usize {
         self.places() + AMOUNTS * (self.resources.len() + self.numbers.len())
     }
@@ -73,7 +73,7 @@ impl Features {
         (self.columns * self.rows) as usize + 1
     }
 
-    /// Visits the atoms of a state. Some atoms may be visited twice. Cost: O(sprites of types that change).
+    /// Visits the atoms (facts) of a state. Some atoms may be visited twice. Cost: O(sprites of types that change).
     pub(crate) fn each(&self, state: &State, mut atom: impl FnMut(usize)) {
         let block = state.block();
         let cells = self.cells();
@@ -120,7 +120,7 @@ fn quarter(facing: Direction) -> usize {
     }
 }
 
-/// A set of atoms.
+/// A set of atoms, which are facts about a state.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Atoms(Vec<u64>);
 
@@ -129,7 +129,7 @@ impl Atoms {
         Atoms(vec![0; atoms.div_ceil(64)])
     }
 
-    /// Adds an atom. Returns `true` if the atom is new.
+    /// Adds an atom (a fact about a state). Returns `true` if the atom is new.
     pub(crate) fn insert(&mut self, atom: usize) -> bool {
         let (word, bit) = (&mut self.0[atom / 64], 1 << (atom % 64));
         let is_new = *word & bit == 0;

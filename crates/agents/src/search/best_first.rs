@@ -43,7 +43,7 @@ pub(crate) fn best_first_until(
 struct Queue<'a> {
     progress: Progress<'a>,
     features: Features,
-    /// The atoms seen so far, by distance from the goal and score.
+    /// The atoms (facts about states) seen so far, by distance from the goal and score.
     seen: BTreeMap<(u32, i64), Atoms>,
     /// The open states by rank. Nodes with equal ranks are expanded in order of discovery.
     open: BTreeMap<(Rank, NodeId), StoredState>,

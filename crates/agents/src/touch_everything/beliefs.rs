@@ -83,7 +83,7 @@ impl Beliefs {
         self.kinds.entry(kind.to_owned()).or_default().touched.insert(circumstances.clone());
     }
 
-    /// Updates the beliefs after one or more ticks.
+    /// Updates what the player believes about the board after one or more ticks.
     pub(super) fn learn(&mut self, passed: &Passed<'_>) {
         let Passed { before, now, .. } = passed;
         let circumstances = circumstances(before);

@@ -190,7 +190,7 @@ fn the_first_game_works_as_printed() {
                 continue;
             }
             ["validate", _, "0"] => {
-                // At this point, the page has asked the reader to write a game.
+                // At this point, the page has asked the person following it to write a game.
                 let [game] = blocks(page, "vgdl")[..] else { panic!("one game") };
                 let [level] = blocks(page, "level")[..] else { panic!("one level") };
                 fs::write(folder.join("shell-beach/game.vgdl"), game).unwrap();

@@ -1,5 +1,5 @@
-//! Tests of the memory tests. A player that replays the wins published by coin tosses is detected, and other
-//! players are not.
+//! Tests of the memory tests. For each level, a random choice decided which of two wins was published. A player that
+//! replays the published wins is detected, and other players are not.
 
 use crate::arcade::{copy_tree, files, run, text};
 use base::Digest;
@@ -16,7 +16,7 @@ use std::fs;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// The number of games, each with one level. Twelve coins are enough evidence after correction.
+/// The number of games, each with one level. Twelve random choices are enough evidence after correction.
 const GAMES: u32 = 12;
 
 /// Returns a game in which the player fetches the gem and leaves. The limit makes each game different.
@@ -48,9 +48,9 @@ fn corpus() -> Corpus {
     Corpus { games: (0..GAMES).map(game).collect() }
 }
 
-/// A folder with a sealed release. The release's parts are in `public` and `held`, the whole release is in
-/// `revealed`, and its siblings are in `siblings`. The folder also contains two players' results on the
-/// release and the siblings.
+/// A folder with a sealed release. The release's parts are in `public` and `held`, the whole release is in `revealed`,
+/// and the withheld renamed copies of its games are in `siblings`. The folder also contains two players' results on
+/// both.
 static COINS: LazyLock<TempDir> = LazyLock::new(|| {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
@@ -150,7 +150,7 @@ fn a_clean_player_is_not() {
         "{found:#}"
     );
     assert_eq!(found["findings"]["tests"], 4);
-    // The player ignores names, so its episodes on siblings are the same.
+    // The player ignores names, so its episodes on the renamed copies are the same.
     let games = &players[1]["games"];
     assert_eq!((&games["published"], &games["informative"]), (&games["withheld"], &0.into()));
     let alone = ["study", "contamination", "clean-published", "clean-withheld", "--release", "revealed"];
@@ -198,7 +198,7 @@ fn wrong_inputs_name_the_next_move() {
     refused(&[published, published, "--release", "revealed"], "two folders contain the same episodes");
 }
 
-/// The wins published by coins are revealed before the other files, under the same root.
+/// The wins that were selected at random for publication are revealed before the other files, under the same root.
 #[test]
 fn solutions_are_revealed_before_the_rest() {
     let (home, made) = (tempfile::tempdir().unwrap(), COINS.path());
@@ -232,7 +232,7 @@ fn solutions_are_revealed_before_the_rest() {
     assert!(said.contains("missing"), "{said}");
 }
 
-/// A release's seed reproduces everything that its coins withheld.
+/// A release's seed reproduces everything that its random choices withheld.
 #[test]
 fn coins_are_minted_again_bit_for_bit() {
     let (corpus, store) = (corpus(), Memory::default());
@@ -250,7 +250,7 @@ type Forgery<'a> = &'a dyn Fn(&mut BTreeMap<String, Vec<u8>>);
 fn what_was_withheld_is_verified() {
     let said = text(&run(COINS.path(), &["verify", "revealed"], 0).stdout);
     assert!(said.contains("24 witnesses replayed to a win\n"), "{said}");
-    // Both siblings are renamings, and neither is the corpus game, so nothing public shows which one was withheld.
+    // Both copies are renamings, and neither is the corpus game, so nothing public shows which one was withheld.
     let released = Released::read(&COINS.path().join("revealed")).unwrap();
     let corpus: Vec<Digest> =
         corpus().games.iter().map(|game| Game::from_source(&game.source).unwrap().digest()).collect();

@@ -288,7 +288,7 @@ fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     append("trust/keys-2.json", 0, "keys         2");
 }
 
-/// Returns a scale with one release and without examinees.
+/// Returns a scale with one release and without examinees (reference players).
 fn scale_of(root: &Value) -> String {
     let none = json!({ "value": 0.0, "error": 1.0 });
     let names = ["game", "level", "family", "planner", "game_slope", "level_slope"];

@@ -1,4 +1,4 @@
-//! Tests of marks: the results of fixed players, stored in a release.
+//! Tests of marks: the results of reference players, stored in a release.
 
 use crate::arcade::{commit, files, run, sweeping, text};
 use std::fs;
@@ -6,15 +6,14 @@ use std::path::Path;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// A recipe with three jobs that take seconds each. With this seed, the marks' players win some of the
-/// episodes.
+/// A recipe with three jobs that take seconds each. With this seed, the reference players win some of the episodes.
 const RECIPE: &str = "name = 'marked'\ndescription = 'x'\nseed = 'lamps'\n[corpus]\ngames = 2\nlevels = 1\n\
     candidates = 1.5\n[criteria]\ndecision = 100\nbudget = 80000\ndepths = [10, 25]\nrandom_plays = 10\n";
-/// The marks that the recipe requests.
+/// The section of the recipe that requests the results of reference players.
 const MARKS: &str = "[marks]\nplayers = ['random', 'touch-everything', 'nearest-goal', 'reflex', 'guided-mcts:60']\n\
     commits = ['1', '5', 'all']\nplays = 2\nmax_steps = 200\n";
 
-/// A folder that contains a release with marks in `marked`, and its recipe.
+/// A folder that contains a release with stored results of reference players in `marked`, and its recipe.
 static MARKED: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     recipe(folder.path());
@@ -47,7 +46,7 @@ fn marks_are_minted_again_bit_for_bit() {
     assert_eq!(files(&whole), files(&folder.join("merged")));
 }
 
-/// Runs only in `cargo xtask sweep`. The games are made before the marks are played.
+/// Runs only in `cargo xtask sweep`. The games are made before the reference players play them.
 #[test]
 fn games_are_the_same_without_marks() {
     if !sweeping() {
@@ -65,7 +64,7 @@ fn games_are_the_same_without_marks() {
     assert!(!home.path().join("plain/MARKS.json").exists());
 }
 
-/// Anyone can replay the marks' episodes with a subcommand that knows nothing of marks.
+/// Anyone can replay the episodes of the reference players with a subcommand that knows nothing of the stored results.
 #[test]
 fn marks_are_the_episodes_of_an_evaluation() {
     let (home, whole) = (tempfile::tempdir().unwrap(), MARKED.path().join("marked"));
@@ -88,11 +87,12 @@ fn marks_are_the_episodes_of_an_evaluation() {
         }
     }
     assert!(won > 0, "{marks:#}");
-    // If these numbers change without a new GENERATION, marks have changed although they must not.
+    // If these numbers change without a new GENERATION, the reference players' results have changed although they must
+    // not.
     let digest = base::Digest::of(marks["games"].to_string().as_bytes());
     assert_eq!(digest.short(), "8b626bb9", "{}", marks["games"]);
 
-    // Reports show the marks beside the players.
+    // Reports show the stored results of reference players beside the players.
     run(folder, &["report", "reflex-1", "guided-mcts-60-5", "--out", "report"], 0);
     let csv = fs::read_to_string(folder.join("report/tables/marks.csv")).unwrap();
     assert!(csv.contains("nearest-goal,mark"), "{csv}");

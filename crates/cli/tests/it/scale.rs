@@ -41,8 +41,8 @@ fn releases_are_added_to_a_scale() {
     assert!(second["months"][1]["link"][0].as_f64().unwrap() > 0.0);
 }
 
-/// Checks the actions of each examinee on a level. Examinees are frozen, so a difference is either a bug or
-/// requires a new examinee with a higher number (`docs/reference/examinees.md`). Changes to the game itself
+/// Checks the actions of each examinee (reference player) on a level. Examinees never change, so a difference is either
+/// a bug or requires a new examinee with a higher number (`docs/reference/examinees.md`). Changes to the game itself
 /// also change the actions.
 #[test]
 fn examinees_play_as_ever() {
@@ -72,7 +72,7 @@ fn interrupted_calibrations_resume() {
     calibrate(folder.path(), &[&games[..], &["--jobs", "1"]].concat(), 0);
     let whole = fs::read(folder.path().join("first/scale.json")).unwrap();
     assert_eq!(whole, fs::read(SCALES.path().join("first/scale.json")).unwrap());
-    // The files look as if the calibration had been killed in the middle of an examinee.
+    // The files look as if the calibration had been killed while a reference player was playing.
     fs::remove_file(folder.path().join("first/scale.json")).unwrap();
     fs::remove_dir_all(folder.path().join("first/plays/olets-1")).unwrap();
     fs::remove_file(folder.path().join("first/plays/mcts-1/episodes/hailglass-lvl0-run0.jsonl")).unwrap();
@@ -115,11 +115,11 @@ fn players_are_placed_or_refused() {
     let part = |name: &str| month["error"][name].as_f64().unwrap();
     let square = ["sampling", "mismatch", "link"].iter().map(|name| part(name) * part(name)).sum::<f64>();
     assert!((square.sqrt() - part("total")).abs() < 1e-9, "{month}");
-    // The reader plays a month with one anchor only.
+    // The player `reader` plays a month that only one anchor (an unchanging player that sees only prompts) has played.
     play("reflex", "first-ice", "reader");
     let refused = run(folder, &["study", "scale", "reader", "--scale", "second/scale.json"], 1);
     assert!(text(&refused.stdout).contains("two anchors"), "{}", text(&refused.stdout));
-    // The scale has a different commitment, track and step limit.
+    // The scale has a different number of actions per decision, different prompt settings and a different step limit.
     let settings = [
         &["--commit", "3", "--max-steps", "40"],
         &["--track", "masked", "--max-steps", "40"],
@@ -150,8 +150,8 @@ while read -r line; do
 done
 ";
 
-/// Two readers that play both months link the months for readers. A reader that cannot play is rejected
-/// before any episode is played.
+/// Two readers (players that see only prompts) that play both months link the months for other readers. A reader that
+/// cannot play is rejected before any episode is played.
 #[cfg(unix)]
 #[test]
 fn readers_take_part_as_anchors() {
@@ -281,7 +281,7 @@ fn plans_choose_levels_for_a_target() {
         let refused = run(folder, &[&CHOICE[..6], steps, &CHOICE[8..], wrong].concat(), 2);
         assert!(text(&refused.stderr).contains(words), "{}", text(&refused.stderr));
     }
-    // A reader plays a month with one anchor only.
+    // The player `reader` plays a month that only one anchor (an unchanging player that sees only prompts) has played.
     let month =
         ["evaluate", "first-ice", "--player", "reflex", "--max-steps", "40", "--scale", "second/scale.json"];
     let unlinked = run(folder, &[&month[..], &["--episodes", "1", "--plan"]].concat(), 0);
@@ -407,7 +407,7 @@ fn damaged_scales_are_refused() {
     fs::write(folder.join("scale.json"), large).unwrap();
     let said = text(&run(folder, &["study", "scale", &plays, "--scale", "scale.json"], 2).stderr);
     assert!(said.contains("larger than 16777216 bytes"), "{said}");
-    // Readers may find easy what planners find hard.
+    // Readers (players that see only prompts) may find easy what planners find hard.
     let mut opposed = whole.clone();
     opposed["spreads"]["game_slope"] = (-0.5).into();
     fs::write(folder.join("scale.json"), opposed.to_string()).unwrap();

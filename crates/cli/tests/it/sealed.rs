@@ -1,4 +1,5 @@
-//! Tests of sealed releases. The public part reveals no secret, and the revealed part matches the commitment.
+//! Tests of sealed releases, whose seed and witnesses are withheld. The public part reveals no secret, and the revealed
+//! part matches the commitment.
 
 use crate::arcade::{commit, copy_tree, files, run, sweeping, text};
 use base::Digest;
@@ -361,8 +362,8 @@ fn another_secret_is_refused() {
     );
 }
 
-/// A recipe uses memory tests and a beacon together. The coins, the siblings and the second wins follow from
-/// the seed combined with the beacon's value.
+/// A recipe uses memory tests and a beacon together. The random choices, the renamed copies and the second wins follow
+/// from the seed combined with the beacon's value.
 #[test]
 fn coins_follow_from_the_beacon_too() {
     let home = tempfile::tempdir().unwrap();

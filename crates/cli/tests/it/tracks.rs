@@ -1,4 +1,5 @@
-//! Tests of `arcade evaluate --track`: series of levels, images for mailboxes, and rejections.
+//! Tests of `arcade evaluate --track`, which selects a bundle of prompt settings: series of levels, images for
+//! mailboxes, and rejections.
 
 use crate::arcade::{arcade, run, text};
 use crate::server::{ReceivedRequest, Response, Server};
@@ -90,7 +91,7 @@ fn refusals_name_a_way_on() {
         assert!(text(&refused.stderr).contains(words), "{more:?}: {}", text(&refused.stderr));
         assert!(!home.path().join("results").exists(), "{more:?}");
     }
-    // A flag that repeats the track's value is not a contradiction.
+    // A flag that repeats the value that the track (the bundle of prompt settings) sets is not a contradiction.
     let args = [
         "evaluate",
         "hailglass",

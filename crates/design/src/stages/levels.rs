@@ -26,7 +26,7 @@ pub(crate) struct Verdicts {
     pub(crate) won: usize,
     /// For each criterion, `true` if the game or all of its levels meet it.
     pub(crate) criteria: BTreeMap<Criterion, bool>,
-    /// The tier of the last level, if a tier is required and the level has a known win.
+    /// The tier (difficulty class from 1 to 4) of the last level, if a tier is required and the level has a known win.
     pub(crate) tier: Option<Tier>,
     /// The problem, if the game is not accepted.
     pub(crate) problem: Option<Problem>,

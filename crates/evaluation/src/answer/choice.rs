@@ -6,7 +6,8 @@ use itertools::Itertools;
 use regex::Regex;
 use std::sync::LazyLock;
 
-/// The start of an answer: a tag, `\boxed{`, or a word such as "answer" followed by a punctuation mark or "is".
+/// The start of an answer in a player's text: a tag, `\boxed{`, or a word such as "answer" followed by a punctuation
+/// mark or "is".
 static MARK: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)(?:<\|?(?:final[_ ]?)?answer\|?>|\\boxed\{|(?-u:\b)(?:answer|choice|option)["'*`_]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒|is(?-u:\b)))"#,
@@ -25,8 +26,9 @@ static ALONE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r#"(?i)^[ \t*`"'(\[{_$]*(?P<word>[a-z]+)[ \t*`"'.!)\]}_$]*$"#));
 
 /// Reads an answer that is one of `words`, such as `yes` and `no`, and returns the word's index. The requested format
-/// is a last line such as `ANSWER: yes`. The last marked answer counts. If no answer is marked, a word alone on the
-/// last line counts. Single letters must be upper-case unless they follow a mark. Cost: O(bytes).
+/// is a last line such as `ANSWER: yes`. The last answer that is introduced in this way counts. If there is none, a
+/// word alone on the last line counts. Single letters must be upper-case unless a word such as "answer" introduces
+/// them. Cost: O(bytes).
 pub fn read_choice(text: &str, words: &[&str]) -> Reading<usize> {
     let said = without_reasoning(text).trim();
     let Some(last) = said.lines().next_back() else {

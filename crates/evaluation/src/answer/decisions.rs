@@ -18,8 +18,8 @@ pub(super) const MAX_SCANNED: usize = 400;
 /// The maximum number of decisions to examine, counted from the end of the answer.
 const DECISIONS: usize = 100;
 
-/// The start of a marked decision: a tag, `\boxed{`, or a word such as "action" followed by a
-/// punctuation mark.
+/// The start of a decision in a player's text: a tag, `\boxed{`, or a word such as "action" followed by a punctuation
+/// mark.
 static MARK: LazyLock<Regex> = LazyLock::new(|| {
     pattern(
         r#"(?i)<\|?(?P<tag>(?:final[_ ]?)?(?:answer|action|move|choice|decision))\|?>|(?P<box>\\boxed\{)|(?-u:\b)(?P<key>(?:[a-z]{1,12}_)?actions?|(?:[a-z]{1,12}_)?(?:answer|move|choice|decision))(?P<quote>["']?)[*`_\])]{0,3}[ \t]{0,4}(?:[:=]|->|→|⇒)"#,
@@ -100,9 +100,9 @@ struct Decision<'a> {
     kind: Kind,
 }
 
-/// Reads a normalised answer that does not follow the requested format. Reads the marked decisions first. If
-/// the last of them contains an unknown word, also reads the text after it. If no decision is marked, reads
-/// the entire answer as unmarked text.
+/// Reads a normalised answer that does not follow the requested format. First reads the decisions that a tag or a word
+/// such as "action" introduces. If the last of them contains an unknown word, also reads the text after it. If no
+/// decision is introduced, reads the entire answer.
 pub(super) fn read<'a>(said: &'a str, listed: &[Action]) -> Option<(Chosen<'a>, Stage)> {
     let places: Vec<usize> = MARK.find_iter(said).map(|found| found.start()).collect();
     let marks = &places[places.len().saturating_sub(DECISIONS)..];
@@ -140,7 +140,7 @@ impl<'a> Decision<'a> {
     }
 }
 
-/// Reads the decision after a mark. Returns `None` if no decision follows the mark.
+/// Reads the decision after an introduction such as "action:". Returns `None` if no decision follows.
 fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Option<Decision<'a>> {
     let whole = mark.get(0)?;
     let name = mark.name("tag").or(mark.name("key")).map_or("", |name| name.as_str()).to_ascii_lowercase();
@@ -187,7 +187,7 @@ fn marked_at<'a>(said: &'a str, mark: &Captures<'a>, listed: &[Action]) -> Optio
     };
     let context = match kind {
         Kind::Json => phrase::context(&name),
-        // The mark itself may show that the action lies in the past, as `last_action` does.
+        // The introduction itself may show that the action lies in the past, as `last_action` does.
         _ => phrase::context(&said[at - line.len()..at + name.len()]),
     };
     match context {
@@ -211,13 +211,14 @@ fn in_object(text: &str) -> Phrase<'_> {
     }
 }
 
-/// Reads the content of a tag that spans several lines. One of the lines may state the decision after a mark
-/// of its own.
+/// Reads the content of a tag that spans several lines. One of the lines may introduce the decision again, such as with
+/// "action:".
 fn in_several_lines(text: &str) -> Phrase<'_> {
     if phrase::names_other(text, None) { Phrase::Unclear } else { Phrase::Empty }
 }
 
-/// Reads the action at `word`, which is not preceded by a mark. The decision starts at `at`.
+/// Reads the action at `word`, which is not introduced by a tag or a word such as "action". The decision starts at
+/// `at`.
 fn unmarked<'a>(
     said: &'a str,
     at: usize,

@@ -14,7 +14,7 @@ pub struct Contamination {
     pub alpha: f64,
     /// The number of tests. Each test's significance level is the combined level divided by this number.
     pub tests: u64,
-    /// The minimum number of coins with which a test can be significant at its level.
+    /// The minimum number of random choices between two items with which a test can be significant at its level.
     pub needed: u64,
     /// The findings on each player.
     pub players: Vec<PlayerMemory>,
@@ -29,7 +29,7 @@ pub struct PlayerMemory {
     pub power: Vec<Power>,
     /// The test of whether the player's episodes begin like published wins rather than withheld wins.
     pub solutions: Option<SideTest>,
-    /// The test of whether the player wins published games more often than their withheld siblings.
+    /// The test of whether the player wins published games more often than their withheld siblings (renamed copies).
     pub games: Option<SideTest>,
     /// The conclusion from both tests.
     pub evidence: Evidence,
@@ -37,20 +37,19 @@ pub struct PlayerMemory {
     pub unknown: u64,
 }
 
-/// The result of a test over coins.
+/// The result of a test over the random choices that decided which of two items was published.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SideTest {
-    /// The number of coins with results.
+    /// The number of random choices for which the player has results.
     pub coins: u64,
-    /// The number of coins with different results on their two sides. Coins with equal results are not
-    /// evidence.
+    /// The number of random choices whose two items have different results. Equal results are not evidence.
     pub informative: u64,
     /// The number of episodes, or, in the game test, the number of episode pairs.
     pub episodes: u64,
-    /// The total on the published side: the number of wins, or the number of episodes that begin like the
-    /// published win.
+    /// The total for the published items: the number of wins, or the number of episodes that begin like the published
+    /// win.
     pub published: u64,
-    /// The total on the withheld side.
+    /// The total for the withheld items.
     pub withheld: u64,
     /// The test's exact p-value.
     pub p: f64,
@@ -68,16 +67,16 @@ impl SideTest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
-    /// No test was possible: the player has played no level with two wins, and no game together with its
-    /// sibling.
+    /// No test was possible. The player has played no level with two wins, and no game together with its sibling (the
+    /// withheld renamed copy).
     Untested,
-    /// No test has enough coins to be significant, whatever the player knows.
+    /// No test has enough random choices between two items to be significant, whatever the player knows.
     CannotTell,
     /// No test was significant.
     ConsistentWithNotHavingSeen,
     /// The player's episodes begin like published wins rather than withheld wins.
     HasSeenTheSolutions,
-    /// The player wins published games more often than their withheld siblings.
+    /// The player wins published games more often than their withheld siblings (renamed copies).
     HasSeenTheGames,
     /// Both tests were significant.
     HasSeenTheSolutionsAndTheGames,
@@ -118,7 +117,7 @@ impl Evidence {
     }
 }
 
-/// A player's results on both sides of one coin.
+/// A player's results on the two items of one random choice (published and withheld).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct CoinResults {
     episodes: u64,
@@ -148,8 +147,8 @@ pub fn contamination(coins: &Coins, players: &[PlayerEpisodes]) -> Contamination
     Contamination { alpha: ALPHA, tests, needed, players: players.iter().zip(results).map(of).collect() }
 }
 
-/// Returns the minimum number of coins for which the p-value can reach `alpha`. The p-value is lowest if all
-/// coins favour the same side.
+/// Returns the minimum number of random choices for which the p-value can reach `alpha`. The test is one-sided, so the
+/// p-value is lowest if the player does better on the published item for all choices.
 fn needed(alpha: f64) -> u64 {
     let (mut coins, mut p) = (0, 1.0);
     while p > alpha {
@@ -177,7 +176,7 @@ fn tested(results: &[CoinResults], tests: u64) -> Option<SideTest> {
     })
 }
 
-/// One player's results, by coin.
+/// One player's results, by random choice.
 struct Results {
     solutions: Vec<CoinResults>,
     games: Vec<CoinResults>,
@@ -237,8 +236,8 @@ mod tests {
         Digest::of(format!("{what} {game} {side}").as_bytes())
     }
 
-    /// Returns the coins for games with one level each. Bit `game` of `fall` decides which side of that game
-    /// is published.
+    /// Returns the random choices for games with one level each. Bit `game` of `fall` decides which of that game's two
+    /// copies is published.
     fn coins(fall: usize) -> Coins {
         let game = |game: usize| {
             let side = fall >> game & 1;
@@ -254,8 +253,8 @@ mod tests {
         Coins { games: (0..GAMES).map(game).collect() }
     }
 
-    /// Returns a player with one episode on each side of each game. `of` determines whether the player wins
-    /// an episode, and how the episode begins.
+    /// Returns a player with one episode on each of a game's two copies. `of` determines whether the player wins an
+    /// episode, and how the episode begins.
     fn player(of: impl Fn(usize, usize) -> (bool, &'static [Action])) -> PlayerEpisodes {
         let sides = (0..GAMES).flat_map(|game| [(game, 0), (game, 1)]);
         let episode = |(game, side)| {
@@ -270,8 +269,8 @@ mod tests {
         contamination(&coins(fall), &[player]).players[0].evidence
     }
 
-    /// For a player without knowledge of the coins, p ≤ x holds in at most a fraction x of all coin outcomes.
-    /// The bound does not depend on how the player's skill varies between games, or on which beginnings it
+    /// For a player that does not know the random choices, p ≤ x holds in at most a fraction x of all outcomes of these
+    /// choices. The bound does not depend on how the player's skill varies between games, or on which beginnings it
     /// prefers.
     #[test]
     fn the_level_is_exact() {
@@ -302,7 +301,7 @@ mod tests {
         assert_eq!(evidence(fall, both), Evidence::HasSeenTheSolutionsAndTheGames);
         let neither = player(|_, own| (own == 0, BEGINNINGS[0]));
         assert_eq!(evidence(fall, neither), Evidence::ConsistentWithNotHavingSeen);
-        // Results on a different release, and results on withheld siblings alone, are not evidence.
+        // Results on a different release, and results on withheld copies alone, are not evidence.
         let mut foreign = games.clone();
         foreign
             .episodes
@@ -313,7 +312,7 @@ mod tests {
         assert_eq!(found.players[0].evidence, Evidence::Untested);
     }
 
-    /// With too few coins, the conclusion is [`Evidence::CannotTell`].
+    /// With too few random choices, the conclusion is [`Evidence::CannotTell`].
     #[test]
     fn too_few_coins_cannot_tell() {
         assert_eq!([1, 2, 4].map(|tests| needed(ALPHA / f64::from(tests))), [7, 8, 9]);
@@ -328,7 +327,7 @@ mod tests {
         assert!(few(8).players[0].evidence.is_seen());
     }
 
-    /// Ten coins are weak evidence if the significance level is shared among many tests.
+    /// Ten random choices are weak evidence if the significance level is shared among many tests.
     #[test]
     fn tests_are_corrected() {
         let fall = 0;

@@ -1,8 +1,8 @@
 //! Memory tests, which show whether a player has seen a release's games or their published solutions.
 //!
-//! A release contains coins. Each coin decided which of a game's two renamings, or which of a level's two
-//! wins, was published and which was withheld ([`statistics::coin_test`]). This module reads players' results
-//! on both sides and compares them.
+//! For each game or level, a secret random choice (a "coin") decided which of two renamings, or which of two wins, was
+//! published and which was withheld ([`statistics::coin_test`]). This module reads players' results on both items and
+//! compares them.
 
 mod coins;
 mod findings;

@@ -32,14 +32,14 @@ pub struct Power {
     pub share: f64,
     /// The solution test's power, or `None` if no level with two wins is played.
     pub solutions: Option<f64>,
-    /// The game test's power, or `None` if no game with a sibling is played.
+    /// The game test's power, or `None` if no game with a sibling (withheld renamed copy) is played.
     pub games: Option<f64>,
 }
 
 impl Power {
-    /// Returns the power of a design in which each test has significance level `alpha`. Each of `levels`
-    /// levels with two wins is played once, and `pairs` contains the number of episode pairs for each game
-    /// with a sibling.
+    /// Returns the power of a design in which each test has significance level `alpha`. Each of `levels` levels with
+    /// two wins is played once. `pairs` contains the number of episode pairs for each game with a sibling (withheld
+    /// renamed copy).
     pub fn of(levels: u64, pairs: &[u64], alpha: f64) -> Vec<Power> {
         let of = |share: f64| {
             let player = Memoriser { share, known: KNOWN, clean: CLEAN };
@@ -55,8 +55,9 @@ impl Power {
     }
 }
 
-/// Returns the design in which every level is played once on each side: the number of levels with two wins,
-/// and the number of episode pairs for each game with a sibling.
+/// Returns the design in which every level is played once in the published game and once in its sibling (the withheld
+/// renamed copy). The result is the number of levels with two wins, and the number of episode pairs for each game with
+/// a sibling.
 pub fn design(coins: &Coins) -> (u64, Vec<u64>) {
     let (_, levels) = coins.counts();
     let paired = coins.games.iter().filter(|game| game.withheld.is_some());

@@ -1,4 +1,4 @@
-//! Reads players' episodes on both sides of a release's coins.
+//! Reads players' episodes on published games and on their withheld siblings (renamed copies).
 
 use crate::error::EvaluationError;
 use crate::log::Event;

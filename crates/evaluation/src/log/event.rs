@@ -42,7 +42,7 @@ pub enum Event {
         /// The number of actions that the player commits to at each decision.
         #[serde(default, skip_serializing_if = "Commitment::is_one")]
         commit: Commitment,
-        /// The track with its version, such as `masked@1`.
+        /// The track (bundle of prompt settings) with its version, such as `masked@1`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         track: Option<String>,
         /// The level's position in a series of levels played in one conversation.

@@ -41,7 +41,7 @@ pub struct EpisodeMetrics {
     /// The number of actions that the player commits to at each decision.
     #[serde(skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
-    /// The episode's track, with its version.
+    /// The episode's track (bundle of prompt settings), with its version.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
     /// The level's position in a series of levels played in one conversation.

@@ -73,9 +73,9 @@ pub struct Said {
 /// An agent's decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The actions to play, one per tick. If there are fewer actions than the player commits to,
-    /// [`Action::Nil`] is played in the remaining ticks. [`Action::Nil`] also replaces actions that are
-    /// unavailable when they are due. Actions beyond the commitment are not played.
+    /// The actions to play, one per tick. If there are fewer actions than a decision must contain, [`Action::Nil`] is
+    /// played in the remaining ticks. [`Action::Nil`] also replaces actions that are unavailable when they are due.
+    /// Actions beyond that number are not played.
     pub actions: Vec<Action>,
     /// The origin of the choice.
     pub validity: Validity,

@@ -137,12 +137,12 @@ impl Prompter {
         Prompter::within(subject, settings, u64::MAX, Commitment::ONE)
     }
 
-    /// Prepares the prompts for a game whose episodes have at most `limit` actions. The rules in the prompts
-    /// mention no later tick, and the prompts request as many actions as the player commits to.
+    /// Prepares the prompts for a game whose episodes have at most `limit` actions. The rules in the prompts mention no
+    /// later tick, and the prompts request the number of actions that the player commits to at each decision.
     ///
     /// # Errors
-    /// Returns an error if the settings are out of range, if the reference's style is combined with a
-    /// commitment to several actions, or if the game's names cannot be masked.
+    /// Returns an error if the settings are out of range, if the reference's style is combined with several actions per
+    /// decision, or if the game's names cannot be masked.
     pub fn within(
         subject: &Subject,
         settings: PromptSettings,
@@ -217,8 +217,9 @@ impl Prompter {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the commitment. If two runs of
-    /// the same game have the same digest, [`engine::SEMANTICS`] and step limit, they have the same prompts.
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the number of actions per decision. If
+    /// two runs of the same game have the same digest, [`engine::SEMANTICS`] and step limit, they have the same
+    /// prompts.
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
@@ -334,7 +335,8 @@ impl Prompter {
         answer::read(answer, format, &self.actions, turn.actions).map(|action| vec![action])
     }
 
-    /// Returns the commitment for use in templates: `None` for one action, and otherwise a number or `all`.
+    /// Returns the number of actions per decision for use in templates: `None` for one action, and otherwise a number
+    /// or `all`.
     fn commit_data(&self) -> Option<String> {
         (!self.commit.is_one()).then(|| self.commit.to_string())
     }

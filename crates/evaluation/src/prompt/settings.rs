@@ -1,5 +1,5 @@
-//! Settings for the content and form of prompts. Every aid can be turned on or off, so that its effect can be
-//! measured.
+//! Settings for the content and form of prompts. Every aid (optional part of a prompt) can be turned on or off, so that
+//! its effect can be measured.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -29,7 +29,7 @@ pub(super) fn next_board(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<
 }
 
 /// Draws a question that asks for the board after given actions, with four boards to choose from. All four are equally
-/// likely to be right for a reader who does not know the actions. The actions in question are drawn from a set of
+/// likely to be right for an answerer who does not know the actions. The actions in question are drawn from a set of
 /// similar sequences, and the options are the boards after these sequences. In half of the questions, two of the boards
 /// result from rules with one interaction switched off.
 pub(super) fn board_choice(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {

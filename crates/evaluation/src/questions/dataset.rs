@@ -13,7 +13,7 @@ pub struct QuestionOrigin<'a> {
     pub release: &'a str,
     /// The root digest of the release.
     pub root: &'a str,
-    /// The canary of the release, which shows whether a text corpus contains the questions.
+    /// The canary of the release: an identifier that shows whether a text corpus contains the questions.
     pub canary: &'a str,
     /// The command that draws the same questions again.
     pub command: &'a str,

@@ -4,7 +4,7 @@
 //! replays or from exhaustive searches, and [`Evidence`] contains the data for deriving the answer again. Only levels
 //! that are deterministic and fully visible are used.
 //!
-//! A reader who ignores the game scores at chance. Options are drawn so that each is equally likely to be right, the
+//! An answerer who ignores the game scores at chance. Options are drawn so that each is equally likely to be right, the
 //! letters of right options are balanced, and yes/no questions come in pairs with opposite answers, from the same
 //! level.
 

@@ -1,8 +1,8 @@
 //! Reference players, each completely determined by its name. Their wins show how hard a level is
 //! ([docs/explanation/difficulty.md](../../../../docs/explanation/difficulty.md)).
 //!
-//! Releases store the results of some reference players as marks (`plays.rs`). The scale uses the results of
-//! the versioned players in `table.rs` to compare monthly releases.
+//! Releases store the results of some reference players (`plays.rs`). The scale uses the results of the versioned
+//! players in `table.rs` to compare monthly releases.
 
 mod player;
 mod plays;

@@ -1,5 +1,5 @@
-//! Plays the episodes of reference players in memory. Their results become a release's marks, which are the
-//! baseline for other results.
+//! Plays the episodes of reference players in memory. Their results are stored in a release (as its *marks*), where
+//! they are the baseline for other results.
 
 use super::ReferencePlayer;
 use crate::commitment::Commitment;
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 pub struct ReferencePlays {
     /// The seed of the evaluation to which the episodes belong.
     pub seed: Seed,
-    /// The number of episodes per commitment.
+    /// The number of episodes per commitment, which is a number of actions per decision.
     pub runs: u64,
     /// The maximum number of actions per episode.
     pub max_steps: u64,
@@ -28,12 +28,12 @@ pub struct ReferencePlays {
 pub const SEED: &str = "evaluate";
 
 impl ReferencePlays {
-    /// Plays a game's levels with each player and commitment. Levels are given as texts, and players and
-    /// commitments by name. Returns the number of wins for each level, player and commitment.
+    /// Plays a game's levels with each player and each commitment (number of actions per decision). Levels are given as
+    /// texts, and players and commitments by name. Returns the number of wins for each level, player and commitment.
     ///
     /// # Errors
-    /// Returns an error if the game cannot be loaded, if a player or commitment does not exist, or if a
-    /// player cannot play the game.
+    /// Returns an error if the game cannot be loaded, if a player or commitment does not exist, or if a player cannot
+    /// play the game.
     pub fn of_game<'a>(
         &self,
         game: &str,
@@ -55,11 +55,11 @@ impl ReferencePlays {
         Ok(wins.chunks(players.len()).map(<[_]>::to_vec).collect())
     }
 
-    /// Returns the number of wins with each commitment.
+    /// Returns the number of wins with each commitment (number of actions per decision).
     ///
-    /// The numbers match an evaluation of the player with the same seed, runs and step limit. On
-    /// deterministic levels, a planner plans the same actions that it would choose one by one, so its results
-    /// with one commitment also apply to all other commitments.
+    /// The numbers match an evaluation of the player with the same seed, runs and step limit. On deterministic levels,
+    /// a planner plans the same actions that it would choose one by one, so its results with one commitment also apply
+    /// to all other commitments.
     ///
     /// # Errors
     /// Returns an error if the player cannot play the game.

@@ -15,13 +15,13 @@ use std::collections::BTreeMap;
 /// A reference player whose name, budget and version are fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScalePlayer {
-    /// The examinee's name, including its version, such as `mcts-1`.
+    /// The name of the examinee (a reference player whose play never changes), including its version, such as `mcts-1`.
     pub name: &'static str,
-    /// The examinee's family. Players in the same family find the same games hard.
+    /// The family of the player. Players in the same family find the same games hard.
     pub family: &'static str,
     /// The player, with its budget in forward-model calls per decision, such as `mcts:200`.
     pub player: &'static str,
-    /// The dimension of the examinee's ability.
+    /// The dimension of the player's ability: that of planners, or that of players that see only prompts.
     pub dimension: Dimension,
 }
 
@@ -29,7 +29,7 @@ const fn planner(name: &'static str, family: &'static str, player: &'static str)
     ScalePlayer { name, family, player, dimension: Dimension::Planner }
 }
 
-/// All examinees of the scale, in playing order.
+/// All reference players of the scale, in playing order.
 pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     planner("random-1", "random", "random"),
     planner("greedy-1", "greedy", "one-step-score"),
@@ -43,7 +43,7 @@ pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     ScalePlayer { name: "reflex-4", family: "reflex", player: "reflex", dimension: Dimension::Reader },
 ];
 
-/// Returns the examinee with the given name.
+/// Returns the scale's reference player with the given name.
 pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
     SCALE_PLAYERS.iter().find(|player| player.name == name)
 }
@@ -52,17 +52,18 @@ pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
 type PlayerOf = Box<dyn Fn(&str) -> Contestant + Sync>;
 
 impl ScalePlayer {
-    /// Returns the examinee as an entrant in evaluation results.
+    /// Returns the reference player in the form in which evaluation results describe their player.
     pub fn entrant(&self) -> Entrant {
         let mut details = json!({ "examinee": self.name, "family": self.family, "player": self.player });
-        // This field distinguishes planners from readers, as it does for planners outside the scale.
+        // This field distinguishes planners from players that see only prompts, as it does for planners outside the
+        // scale.
         if self.dimension == Dimension::Planner {
             details["planner"] = json!(self.player);
         }
         Entrant { name: self.name.to_owned(), mode: None, aids: Vec::new(), details }
     }
 
-    /// Returns a function that creates the examinee's players, given the game ID.
+    /// Returns a function that creates the reference player for a game, given the game's ID.
     ///
     /// # Errors
     /// Returns an error if a prompt cannot be written for one of the games.

@@ -29,7 +29,7 @@ pub struct Task<'a> {
     pub max_steps: u64,
     /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
-    /// The track with its version, if any.
+    /// The track (bundle of prompt settings) with its version, if any.
     pub track: Option<&'a str>,
     /// The level's position in a series, or `None` for a level played alone.
     pub series: Option<SeriesPlace>,
@@ -431,8 +431,8 @@ fn asked_kinds(task: &Task<'_>) -> Vec<String> {
     kinds_at_start(&subject.analysis, levels)
 }
 
-/// Grades an answer to the last question in a series. Without a usable answer, no prediction is correct and
-/// the insight is 0.
+/// Grades an answer to the last question in a series. Without a usable answer, no prediction is correct and the insight
+/// (agreement with the rules) is 0.
 pub(crate) fn graded(analysis: &engine::Analysis, kinds: &[String], predicted: Option<&Predicted>) -> Grade {
     match predicted {
         Some(predicted) => grade(analysis, kinds, predicted),

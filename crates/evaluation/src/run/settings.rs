@@ -48,7 +48,7 @@ pub struct Settings {
     /// The number of actions that the player commits to at each decision.
     #[serde(default, skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
-    /// The track with its version, such as `masked@1`, or `None` for custom prompts.
+    /// The track (bundle of prompt settings) with its version, such as `masked@1`, or `None` for custom prompts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
     /// The maximum number of levels of a game that are played in one conversation.
@@ -146,8 +146,8 @@ impl Settings {
         ))
     }
 
-    /// Sets the track and its series length, and adds the track to the differences that distinguish the
-    /// player in tables.
+    /// Sets the track (bundle of prompt settings) and its series length, and adds the track to the differences that
+    /// distinguish the player in tables.
     ///
     /// # Errors
     /// Returns an error if a game has too few levels for a series.

@@ -1,5 +1,5 @@
-//! The file `scale.json`, which contains the examinees, the spreads, and the levels of each release with
-//! their difficulties.
+//! The file `scale.json`, which contains the examinees (reference players that never change), the spreads (the model's
+//! standard deviations), and the levels of each release with their difficulties.
 
 use crate::error::EvaluationError;
 use crate::run::text::read_text;
@@ -26,7 +26,7 @@ const MAX_SCALE: usize = 1 << 24;
 /// The maximum absolute value of a logit on a scale. At this value, a player wins (or loses) all but one in
 /// 10⁴³⁴ episodes.
 const MAX_LOGIT: f64 = 1000.0;
-/// The maximum misfit for a game.
+/// The maximum misfit for a game, which measures how badly its results fit the model.
 const MAX_MISFIT: f64 = 1e12;
 /// The minimum standard deviation in the model. Calibrations estimate the logarithms of standard deviations,
 /// so 0 is not allowed.
@@ -47,27 +47,28 @@ pub struct ScaleFile {
     pub suite: String,
     /// The maximum number of actions per episode.
     pub max_steps: u64,
-    /// The examinees whose results place releases on the scale.
+    /// The examinees, which are the unchanging reference players whose results place releases on the scale.
     pub examinees: Vec<ExamineeEntry>,
     /// The standard deviations and slopes in the statistical model.
     pub spreads: SpreadsEntry,
-    /// The covariance matrix, stored row by row, of three groups of parameters: the examinees' abilities, the
-    /// origins for planners and readers, and the planners' ease.
+    /// The covariance matrix, stored row by row, of three groups of parameters: the examinees' abilities, the origins
+    /// for planners and for readers (players that see only prompts), and the planners' ease.
     pub covariance: Vec<f64>,
-    /// The mean difficulties of the first release for planners and for readers, in the coordinates of the
-    /// abilities.
+    /// The mean difficulties of the first release for planners and for readers (players that see only prompts), in the
+    /// coordinates of the abilities.
     pub origins: [f64; 2],
     /// The planners' mean logit on the first release.
     pub ease: f64,
-    /// The correlation between the difficulties for planners and for readers.
+    /// The correlation between the difficulties for planners and for readers (players that see only prompts).
     pub correlation: Option<Span>,
-    /// The number of parametric bootstrap replicates used to estimate the spreads and the correlation.
+    /// The number of parametric bootstrap replicates used to estimate the spreads (the model's standard deviations) and
+    /// the correlation.
     pub replicates: u64,
     /// The releases on the scale, in chronological order.
     pub months: Vec<MonthEntry>,
 }
 
-/// An examinee of a scale, with its ability.
+/// An examinee (a reference player that never changes) of a scale, with its ability.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExamineeEntry {
@@ -75,7 +76,7 @@ pub struct ExamineeEntry {
     pub name: String,
     /// The family of the examinee.
     pub family: String,
-    /// `true` if the examinee is a reader.
+    /// `true` if the examinee is a reader, which is a player that sees only prompts.
     pub is_reader: bool,
     /// The examinee's ability in the coordinates of the model.
     pub ability: f64,
@@ -115,16 +116,18 @@ pub struct MonthEntry {
     pub snapshot: Option<Digest>,
     /// The text from which the seeds of the release's episodes were derived.
     pub seed: String,
-    /// The mean difficulty relative to the first release, for planners and for readers. The standard errors
-    /// include the link error for arbitrary players in the dimension.
+    /// The mean difficulty relative to the first release, for planners and for readers (players that see only prompts).
+    /// The standard errors include the link error for arbitrary players in the dimension.
     pub shifts: [Estimate; 2],
     /// The shift in mean difficulty for exactly the scale's planners.
     pub planners_shift: Estimate,
-    /// The standard error shared by the difficulties of all levels, for planners and for readers.
+    /// The standard error shared by the difficulties of all levels, for planners and for readers (players that see only
+    /// prompts).
     pub link: [f64; 2],
-    /// The number of anchors that played the release. Anchors are the readers among the scale's examinees.
+    /// The number of anchors that played the release. Anchors are the scale's unchanging players that see only prompts.
     pub anchors: u64,
-    /// The release's additional difficulty for readers compared with planners, estimated from the anchors.
+    /// The release's additional difficulty for readers (players that see only prompts) compared with planners,
+    /// estimated from the anchors (unchanging readers).
     pub drift: Option<Estimate>,
     /// The release's games.
     pub games: Vec<GameEntry>,
@@ -138,7 +141,8 @@ pub struct GameEntry {
     pub id: String,
     /// The game's digest.
     pub digest: Digest,
-    /// The standard errors shared by all of the game's levels, for planners and for readers.
+    /// The standard errors shared by all of the game's levels, for planners and for readers (players that see only
+    /// prompts).
     pub common: [f64; 2],
     /// The mean squared standardised residual over the game's episodes.
     pub misfit: f64,
@@ -154,7 +158,8 @@ pub struct LevelEntry {
     pub number: usize,
     /// The level's digest.
     pub digest: Digest,
-    /// The level's difficulty for planners and for readers. The standard errors exclude the link error.
+    /// The level's difficulty for planners and for readers (players that see only prompts). The standard errors exclude
+    /// the link error.
     pub difficulty: [Estimate; 2],
 }
 
@@ -203,8 +208,8 @@ impl From<SpreadsEntry> for Spreads {
 }
 
 impl ScaleFile {
-    /// Creates a scale from a calibration, without any releases. `names` contains each examinee's name and
-    /// family.
+    /// Creates a scale from a calibration, without any releases. `names` contains the name and family of each examinee
+    /// (a reference player that never changes).
     pub fn new(found: &Calibration, names: &[(String, String)], max_steps: u64) -> ScaleFile {
         let entry = |(at, (name, family)): (usize, &(String, String))| ExamineeEntry {
             name: name.clone(),

@@ -6,21 +6,21 @@ use serde::Serialize;
 use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
-/// The smallest lower bound of the correlation at which planners alone can link a month to the scale for
-/// readers.
+/// The smallest lower bound of the correlation between both difficulties at which planners alone can link a month to
+/// the scale for readers, which are players that see only prompts.
 const LEAST_CORRELATION: f64 = 0.5;
-/// The minimum number of anchors that link a month to the scale for readers. A single anchor would not show
-/// how much it has in common with other readers.
+/// The minimum number of anchors (unchanging players that see only prompts) that link a month to the scale for other
+/// such players. A single anchor would not show how much it has in common with them.
 const ANCHORS: u64 = 2;
 
-/// A person's abilities, one per release.
+/// The abilities of a person (a player placed on the scale), one per release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PersonAbility {
-    /// The person's name.
+    /// The name of the person (the player placed on the scale).
     pub player: String,
-    /// `true` if the person is a reader.
+    /// `true` if the person is a reader, which is a player that sees only prompts.
     pub is_reader: bool,
-    /// The abilities on the person's releases, in the order of the scale.
+    /// The abilities on the releases that the person (player) has played, in the order of the scale.
     pub months: Vec<MonthAbility>,
     /// The number of distinct episodes on levels missing from the scale.
     pub unknown: u64,
@@ -30,7 +30,7 @@ pub struct PersonAbility {
     pub left_out: BTreeMap<String, u64>,
 }
 
-/// A person's ability, estimated from one release.
+/// The ability of a person (a player placed on the scale), estimated from one release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MonthAbility {
     /// The release's name.
@@ -47,11 +47,12 @@ pub struct MonthAbility {
     pub is_bounded: [bool; 2],
     /// The total standard error of the ability, and its components.
     pub error: Option<ErrorParts>,
-    /// The standard deviation of the person's mismatches with games.
+    /// The standard deviation of the effects of how well or badly single games suit the person (player).
     pub mismatch_sd: Option<f64>,
     /// The reason why the ability could not be estimated, if any.
     pub refusal: Option<Refusal>,
-    /// The release's drift, estimated from the anchors.
+    /// The release's additional difficulty for readers (players that see only prompts), estimated from the anchors
+    /// (unchanging readers).
     pub drift: Option<Estimate>,
 }
 
@@ -73,18 +74,18 @@ pub struct ErrorParts {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
-    /// The release has fewer than two anchors. It is therefore linked to the scale only by planners, which
-    /// are not informative enough about readers.
+    /// The release was played by fewer than two anchors (unchanging players that see only prompts). It is therefore
+    /// linked to the scale only by planners, which are not informative enough about such players.
     FewAnchors {
-        /// The number of anchors that played the release.
+        /// The number of anchors (unchanging players that see only prompts) that played the release.
         anchors: u64,
-        /// The lower bound of the correlation between the difficulties for planners and for readers, if
-        /// known.
+        /// The lower bound of the correlation between the difficulties for planners and for readers (players that see
+        /// only prompts), if known.
         correlation_low: Option<f64>,
     },
 }
 
-/// Returns the abilities of the persons on each of their releases.
+/// Returns the abilities of the persons (players) on each of their releases.
 pub fn abilities(scale: &ScaleFile, persons: &[PersonPlays]) -> Vec<PersonAbility> {
     persons.iter().map(|person| of_person(scale, person)).collect()
 }
@@ -110,8 +111,9 @@ pub(super) fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbilit
 }
 
 impl ScaleFile {
-    /// Returns `true` if a reader's ability can be estimated on the release with the given index. The release
-    /// must be linked through anchors, or through planners with a sufficient correlation.
+    /// Returns `true` if the ability of a reader (a player that sees only prompts) can be estimated on the release with
+    /// the given index. The release must be linked through anchors (unchanging readers), or through planners with a
+    /// sufficient correlation.
     pub fn links_readers(&self, month: usize) -> bool {
         let is_anchored = month == 0 || self.months[month].anchors >= ANCHORS;
         is_anchored || self.correlation.is_some_and(|found| found.low >= LEAST_CORRELATION)

@@ -1,4 +1,5 @@
-//! Reads persons' results by level from results folders. Identical episodes count once.
+//! Reads the results of persons (players to be placed on a scale) by level from results folders. Identical episodes
+//! count once.
 
 use crate::error::EvaluationError;
 use crate::metrics::EpisodeMetrics;
@@ -12,33 +13,33 @@ use statistics::scale::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// A person's results, by level.
+/// The results of a person (a player to be placed on a scale), by level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PersonPlays {
-    /// The person who played the episodes.
+    /// The person (player with its settings) who played the episodes.
     pub player: Player,
-    /// The person's dimension. Players that see the state are planners, and all other players are readers.
+    /// The person's dimension. Players that see the state are planners, and players that see only prompts are readers.
     pub dimension: Dimension,
     /// The number of episodes excluded because of their settings, by difference from the settings of the
     /// scale. The key lists the differing settings, such as `--commit 3`. `levels` does not include these
     /// episodes.
     pub left_out: BTreeMap<String, u64>,
-    /// The versions of the suite that evaluated the person, by game digest.
+    /// The versions of the suite that evaluated the person (player), by game digest.
     pub suites: BTreeMap<Digest, BTreeSet<String>>,
     /// The number of wins and the number of distinct episodes, by game digest and level digest.
     pub levels: BTreeMap<(Digest, Digest), (u64, u64)>,
 }
 
-/// Reads the persons' results in results folders. Persons are distinguished in the same way as in reports.
-/// Aborted episodes do not count. Episodes whose track, commitment or step limit differs from that of a scale
-/// with `max_steps` do not count either, because the scale's difficulties do not apply to them.
+/// Reads the persons' results in results folders. Persons are distinguished in the same way as in reports. Aborted
+/// episodes do not count. Episodes whose track (prompt settings), commitment (actions per decision) or step limit
+/// differs from that of a scale with `max_steps` do not count either, because the scale's difficulties do not apply to
+/// them.
 ///
-/// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current
-/// rayon pool.
+/// Cost: one [`replay_course`](crate::metrics::replay_course) per episode, on the threads of the current rayon pool.
 ///
 /// # Errors
-/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders
-/// contain different episodes of the same person, level, run and seed.
+/// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders contain
+/// different episodes of the same person, level, run and seed.
 pub fn played(folders: &[PathBuf], max_steps: u64) -> Result<Vec<PersonPlays>, EvaluationError> {
     let (persons, settings) = persons(folders)?;
     let person = |(player, episodes): (Player, Vec<EpisodeMetrics>)| {

@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 pub struct Timeline {
     /// The maximum number of actions per episode.
     pub max_steps: u64,
-    /// The correlation between the difficulties for planners and for readers.
+    /// The correlation between the difficulties for planners and for readers (players that see only prompts).
     pub correlation: Option<Span>,
     /// The months of the scale, in chronological order.
     pub months: Vec<TimelineMonth>,
@@ -35,17 +35,19 @@ pub struct TimelineMonth {
     pub games: u64,
     /// The number of levels in the month.
     pub levels: u64,
-    /// The mean difficulty relative to the first month, for arbitrary planners and for arbitrary readers.
+    /// The mean difficulty relative to the first month, for arbitrary planners and for arbitrary readers (players that
+    /// see only prompts).
     pub shifts: [Estimate; 2],
     /// The mean difficulty relative to the first month, for exactly the planners of the scale.
     pub planners_shift: Estimate,
-    /// The standard deviations of the level difficulties, for planners and for readers.
+    /// The standard deviations of the level difficulties, for planners and for readers (players that see only prompts).
     pub spreads: [f64; 2],
     /// The mean misfit of the month's games, which is about 1 if the episodes fit the model.
     pub misfit: f64,
-    /// The number of anchors that played the month. Anchors are the readers among the scale's examinees.
+    /// The number of anchors that played the month. Anchors are the scale's unchanging players that see only prompts.
     pub anchors: u64,
-    /// The month's additional difficulty for the anchors, beyond that implied by its difficulty for planners.
+    /// The month's additional difficulty for the anchors (unchanging players that see only prompts), beyond that
+    /// implied by its difficulty for planners.
     pub drift: Option<Estimate>,
     /// `true` if the drift's 95% interval excludes 0.
     pub is_drift_flagged: bool,

@@ -70,7 +70,8 @@ pub struct Study {
     pub pairs: Contrasts,
     /// The comparisons between each model's zero-shot mode and its contextual mode.
     pub modes: Contrasts,
-    /// The comparisons between each model without an aid and the same model with the aid.
+    /// The comparisons between each model without an aid (an optional part of the prompt) and the same model with the
+    /// aid.
     pub aids: Contrasts,
     /// The correlations between winning and other variables.
     pub correlations: Correlations,
@@ -93,7 +94,8 @@ pub struct Study {
     pub kinds: Vec<TaxonomyRow>,
     /// The results by kind of game, as derived from the rules.
     pub taxonomy: Vec<TaxonomyRow>,
-    /// The horizons of players with several commitments, by kind of game.
+    /// The horizons of players with results for several numbers of actions per decision, by kind of game. A horizon is
+    /// the number of actions at which a player still wins half of its episodes.
     pub horizons: Vec<HorizonRow>,
     /// The reference results on the levels, with the players' results on the same levels. The list is empty
     /// if the releases contain no reference results.
@@ -262,8 +264,8 @@ impl Study {
         }
     }
 
-    /// Returns the players that are included in figures over several players: those on the first player's
-    /// track, and the baselines that read no prompts.
+    /// Returns the players that are included in figures over several players: the players with the same track (bundle
+    /// of prompt settings) as the first player, and the baselines that read no prompts.
     pub(crate) fn on_first_track(&self) -> impl Iterator<Item = usize> + '_ {
         let first = self.players.iter().find(|player| player.track().is_some() || !player.is_reference());
         let first = first.or(self.players.first());

@@ -6,7 +6,7 @@ use crate::player::mailbox::MAX_ANSWER;
 use engine::{Action, Diagnostic, Diagnostics, Game, line_and_column};
 use itertools::Itertools;
 
-/// The maximum number of problems that are reported to an examinee at once.
+/// The maximum number of problems that are reported to the examined player at once.
 const MAX_TOLD: usize = 20;
 
 /// The content of an answer.
@@ -14,7 +14,7 @@ const MAX_TOLD: usize = 20;
 pub(super) enum Answer {
     /// A usable game.
     Game(Game),
-    /// The recording of the actions that the examinee chose. It is never empty.
+    /// The recording of the actions that the examined player chose. It is never empty.
     Played(Recording),
     /// The problems in an unusable answer, one per line.
     Unusable(String),

@@ -1,4 +1,4 @@
-//! The dialogue with an examinee, and its log.
+//! The dialogue with the examined player, and its log.
 
 use super::answer::{self, Answer};
 use super::prompt;
@@ -21,11 +21,11 @@ pub const MAX_ATTEMPTS: u32 = 3;
 pub struct Examined {
     /// The number of answers that are not explorations, from 1 to [`MAX_ATTEMPTS`].
     pub attempts: u32,
-    /// The number of actions that the examinee played to explore the game.
+    /// The number of actions that the examined player used to explore the game.
     pub explored: usize,
     /// The problems in the last answer, if it contains no usable game.
     pub problems: Option<String>,
-    /// The canonical text of the examinee's game, if it is usable.
+    /// The canonical text of the game that the examined player wrote, if it is usable.
     pub game: Option<String>,
     /// The score. Without a usable game, nothing is reproduced.
     pub score: WorldModelScore,
@@ -35,7 +35,7 @@ pub struct Examined {
 /// of unusable answers.
 pub type Ask<'a> = dyn FnMut(Address, &[ChatMessage]) -> Result<ChatReply, Halt> + 'a;
 
-/// Examines the examinee that answers through `ask`. Answers that are already in the log are not requested again.
+/// Examines the player that answers through `ask`. Answers that are already in the log are not requested again.
 ///
 /// # Errors
 /// Returns an error if `ask` returns one, if the log cannot be written, or if the log contains a different question.

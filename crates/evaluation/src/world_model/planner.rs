@@ -18,7 +18,7 @@ const LIMITS: SearchLimits = SearchLimits { calls: 10_000, bytes: 64 << 20 };
 pub struct PlannerScore {
     /// The number of levels.
     pub levels: u64,
-    /// The number of levels on which a plan made with the examinee's game wins the true game.
+    /// The number of levels on which a plan made with the examined player's game wins the true game.
     pub wins: u64,
     /// The number of levels on which a plan made with the true game wins that game. More wins are not expected.
     pub true_wins: u64,

@@ -1,4 +1,4 @@
-//! The texts that examinees read, such as the question and the messages about unusable answers.
+//! The texts that examined players read, such as the question and the messages about unusable answers.
 
 use super::recording::Recording;
 use super::seen::Seen;
@@ -48,7 +48,7 @@ pub(super) fn question(task: &WorldModelTask) -> String {
     parts.join("\n\n")
 }
 
-/// Returns the message about actions that the examinee chose.
+/// Returns the message about actions that the examined player chose.
 pub(super) fn played(task: &WorldModelTask, recording: &Recording, left: usize) -> String {
     let next = match left {
         0 => "You have no actions left. Write the game.".to_owned(),

@@ -71,7 +71,8 @@ pub(super) fn record(
     (0..episodes).map(record).collect()
 }
 
-/// Starts a level. The true game's levels are deterministic, so the seed matters only to the examinee's games.
+/// Starts a level. The true game's levels are deterministic, so the seed matters only to games written by the examined
+/// player.
 pub(super) fn start(viewer: &Viewer, level: &Level) -> State {
     viewer.game.start(level, Seed::from_text("world model"))
 }

@@ -1,4 +1,4 @@
-//! The score of a game written by an examinee.
+//! The score of a game that an examined player wrote.
 
 use super::planner::{self, PlannerScore};
 use super::recording::TransitionKind;
@@ -24,7 +24,7 @@ pub struct Reproduced {
     pub first_deviations: u64,
 }
 
-/// The score of an examinee's game.
+/// The score of a game that an examined player wrote.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WorldModelScore {

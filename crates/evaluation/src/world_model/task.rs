@@ -1,4 +1,4 @@
-//! Tasks: a masked game, the recordings for the examinee, and the held-out recordings.
+//! Tasks: a masked game, the recordings for the examined player, and the held-out recordings.
 
 use super::masked::MaskedGame;
 use super::recording::{Recording, record};
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 base::named_enum! {
-    /// The level of help: the words of VGDL that the examinee is given.
+    /// The level of help: the words of VGDL that the examined player is given.
     pub enum Hints {
         /// The classes, effects and terminations that the game uses.
         Used = "used",
@@ -29,10 +29,10 @@ base::named_enum! {
 pub struct WorldModelSettings {
     /// The level of help.
     pub hints: Hints,
-    /// The number of held-out episodes. Unless the examinee explores the game itself, it is shown the same number of
-    /// other episodes.
+    /// The number of held-out episodes. Unless the examined player explores the game itself, it is shown the same
+    /// number of other episodes.
     pub episodes: u64,
-    /// The number of actions that the examinee may play to explore the game. If it is 0, the examinee is shown
+    /// The number of actions that the examined player may use to explore the game. If it is 0, the player is shown
     /// recordings instead.
     pub actions: usize,
     /// The maximum number of actions in an episode.
@@ -47,7 +47,7 @@ pub struct WorldModelTask {
     /// The game's ID in logs and tables.
     pub id: String,
     pub(super) hints: Hints,
-    /// The number of actions that the examinee may play to explore the game.
+    /// The number of actions that the examined player may use to explore the game.
     pub(super) actions: usize,
     pub(super) masked: MaskedGame,
     /// The masked names of the game's sprite types. Boards refer to them by their indices.
@@ -56,7 +56,7 @@ pub struct WorldModelTask {
     pub(super) held_out: Vec<Recording>,
 }
 
-/// The VGDL words that are given to the examinee.
+/// The VGDL words that are given to the examined player.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Words {
     pub(super) classes: BTreeSet<String>,
@@ -97,7 +97,7 @@ impl WorldModelTask {
         &self.masked.source
     }
 
-    /// Returns the words that the examinee is given, or `None` if it is given none.
+    /// Returns the words that the examined player is given, or `None` if it is given none.
     pub(super) fn words(&self) -> Option<Words> {
         match self.hints {
             Hints::Used => Some(self.used_words()),

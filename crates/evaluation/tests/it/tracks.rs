@@ -1,7 +1,8 @@
-//! Tests of tracks: their prompts, the information that the prompts must hide, and series of levels.
+//! Tests of tracks (bundles of prompt settings): their prompts, the information that the prompts must hide, and series
+//! of levels.
 //!
-//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it tracks` rewrites the files in `golden/`. A
-//! change to any word requires a new version of the track.
+//! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it tracks` rewrites the files in `golden/`. A change to any
+//! word requires a new version of the track.
 
 use crate::games::corridor;
 use crate::prompts::{golden, text};

@@ -221,7 +221,7 @@ fn an_examinee_may_explore() {
     assert_eq!(examined.score.total().state, examined.score.total().transitions);
 }
 
-/// The reference examinee finds the rules of all events in the recordings of a small game. One rule concerns an event
+/// The reference player finds the rules of all events in the recordings of a small game. One rule concerns an event
 /// that occurs only in the held-out recordings.
 #[test]
 fn the_reference_examinee_learns_a_small_game() {

@@ -55,7 +55,8 @@ const SEARCHED: f64 = 3.0;
 const GATES_WEIGHT: f64 = 0.3;
 /// The number of constraints.
 const CONSTRAINTS: f64 = 10.0;
-/// The maximum fraction of supplies that a win may leave in place. One unused supply is always allowed.
+/// The maximum fraction of supplies that a win may leave in place. Supplies are resources to collect and sprites to
+/// push. One unused supply is always allowed.
 const SPARE: f64 = 0.25;
 
 /// The judge in a board search.
@@ -66,7 +67,7 @@ pub(super) struct Judge<'a> {
     pub(super) budget: &'a BoardBudget,
     pub(super) variation: &'a BoardVariation<'a>,
     pub(super) ablations: &'a Ablations,
-    /// The judges of the gates that can be applied to a single board.
+    /// The judges of those gates (criteria for whole games) that can be applied to a single board.
     pub(super) panel: Option<Panel>,
     pub(super) seed: Seed,
 }
@@ -307,12 +308,12 @@ impl Judge<'_> {
     }
 }
 
-/// The gates that can be applied to a single board.
+/// The gates (criteria for whole games) that can be applied to a single board.
 pub(super) const ALONE: CriterionSet =
     CriterionSet::of(&[Criterion::Drama, Criterion::NoDeadTime, Criterion::ActorsMatter, Criterion::Tight]);
 
-/// Returns the quality of a won board. Costly wrong choices weigh most, followed by necessity. Unmet gates lower the
-/// total.
+/// Returns the quality of a won board. Costly wrong choices weigh most, followed by the measured necessity of the
+/// rules. Unmet gates lower the total.
 fn quality(measures: &BoardMeasures) -> f64 {
     let (low, high) = TRAPS;
     let traps = match measures.traps {

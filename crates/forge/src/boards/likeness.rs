@@ -1,11 +1,12 @@
-//! The similarity of two boards, up to mirroring and rotation. Used to prevent a course from repeating a board.
+//! The similarity of two boards, up to mirroring and rotation. Used to prevent the levels of one game from repeating a
+//! board.
 
 use engine::Level;
 
-/// The similarity at which two levels of a course count as the same board. For the median hand-written game, the
-/// highest similarity between two levels is 0.54. Two of the 27 hand-written games have levels above this threshold.
+/// The similarity at which two levels of a game count as the same board. For the median hand-written game, the highest
+/// similarity between two levels is 0.54. Two of the 27 hand-written games have levels above this threshold.
 const ONE_BOARD: f64 = 0.75;
-/// The symbol of bare floor in the levels of courses.
+/// The symbol of bare floor in generated levels.
 const FLOOR: u8 = b'.';
 /// The maximum number of cells by which a board may overhang the edge of the other board when the two are aligned.
 const SHIFT: isize = 1;
@@ -23,7 +24,8 @@ pub(crate) fn are_one_board(one: &Level, other: &Level) -> bool {
 }
 
 /// Returns the similarity of two boards at their best alignment, from 0 to 1. It is the fraction of equal cells,
-/// ignoring cells that are bare floor on both boards. Costs half a million comparisons for the largest course boards.
+/// ignoring cells that are bare floor on both boards. Costs half a million comparisons for the largest generated
+/// boards.
 fn likeness(one: &Board, other: &Board) -> f64 {
     let shifts = |a: usize, b: usize| {
         let spare = a as isize - b as isize;

@@ -4,7 +4,7 @@ use engine::{Episode, Level};
 use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
-/// The minimum and maximum length of a shortest win in ticks, by slot.
+/// The minimum and maximum length of a shortest win in ticks, by the level's position in the game.
 const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
 
 /// The requirements for a board.
@@ -12,10 +12,10 @@ const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (4
 pub struct BoardOrder {
     /// The contents of the board.
     pub brief: BoardBrief,
-    /// The mechanics that must matter, except [`BoardOrder::idle`] of them. Each mechanic is a list of interactions, as
-    /// indices into [`Description::interactions`](engine::Description). A mechanic matters if the win needs one of its
-    /// interactions, if wrong keys are fatal because of the mechanic, or if a clearly shorter win exists without the
-    /// mechanic.
+    /// The mechanics of an invented game, of which all but [`BoardOrder::idle`] must matter. Each mechanic is a list of
+    /// interactions, as indices into [`Description::interactions`](engine::Description). A mechanic matters if the win
+    /// needs one of its interactions, if wrong keys are fatal because of the mechanic, or if a clearly shorter win
+    /// exists without the mechanic.
     pub mechanics: Vec<Vec<usize>>,
     /// The maximum number of mechanics that may not matter.
     pub idle: usize,
@@ -25,12 +25,13 @@ pub struct BoardOrder {
     pub known: Vec<Vec<usize>>,
     /// The minimum and maximum number of ticks in the shortest win.
     pub ticks: (usize, usize),
-    /// The criteria whose gates the board should meet on its own, as far as a single level can.
+    /// The criteria whose gates the board should meet on its own, as far as a single level can. Gates are criteria for
+    /// whole games.
     pub gates: Option<CheckedCriteria>,
 }
 
 impl BoardOrder {
-    /// Creates an order with the default contents and win length for the brief's slot.
+    /// Creates an order with the default contents and win length for the requested position in the game.
     pub fn of(brief: BoardBrief) -> BoardOrder {
         let ticks = LENGTHS[usize::from(brief.demand).min(LENGTHS.len() - 1)];
         BoardOrder {

@@ -12,12 +12,12 @@ pub(super) struct Events {
     pub(super) firsts: Vec<usize>,
     /// The fraction of placed types, not counting walls and floor, that took part.
     pub(super) used: f64,
-    /// The fraction of placed types with an idiom in [`HANDLED`] that take part.
+    /// The fraction of placed types that take part, among the types whose placement pattern is in [`HANDLED`].
     pub(super) handled: f64,
     /// The number of supplies that the win leaves in place. Supplies are sprites to be pushed, and resources that can
     /// be held.
     pub(super) spare: usize,
-    /// The number of supplies at the start.
+    /// The number of supplies (sprites to push and resources to collect) at the start.
     pub(super) supplies: usize,
     /// The longest stretch of the win in which no interaction of `firsts` is executed, as a fraction of the win's
     /// ticks.
@@ -26,7 +26,8 @@ pub(super) struct Events {
     pub(super) sweep: Option<f64>,
 }
 
-/// The idioms of types that the player handles. A win that leaves such a type alone shows that the type is not needed.
+/// The placement patterns of types that the player handles. A win that leaves such a type alone shows that the type is
+/// not needed.
 const HANDLED: [Idiom; 4] = [Idiom::Thing, Idiom::Heavy, Idiom::Spot, Idiom::Exit];
 
 /// Returns `true` if an interaction only stops or turns its first sprite, which makes it a guard.

@@ -27,8 +27,9 @@ pub(crate) struct FarInventions<'a> {
 }
 
 impl<'a> FarInventions<'a> {
-    /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics with the lowest counts in
-    /// the census. If all games in an order use the same `seed`, different parts are requested for each game's draws.
+    /// Creates the variation for an attempt at game `number`. Its draws prefer the mechanics with the lowest use counts
+    /// in the census. If all games in an order use the same `seed`, different parts are requested for each game's
+    /// draws.
     pub(crate) fn new(
         census: &Census,
         known: &'a [GameForm],

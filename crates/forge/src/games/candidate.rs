@@ -32,7 +32,7 @@ pub struct Candidate {
 pub struct MadeGame {
     /// The game's rules.
     pub game: Game,
-    /// The rules as text, headed by title and canary.
+    /// The rules as text, headed by the title and the release's canary (its identifier in text corpora).
     pub text: String,
     /// The game's card.
     pub card: Card,
@@ -84,7 +84,8 @@ impl Candidate {
     }
 }
 
-/// Returns a game's text, headed by its title and a release's canary. An empty canary is omitted.
+/// Returns a game's text, headed by its title and the release's canary (its identifier in text corpora). An empty
+/// canary is omitted.
 pub fn marked(titled: &Description, canary: &str) -> String {
     let mut tree = titled.clone();
     if !canary.is_empty() {

@@ -13,7 +13,8 @@ pub struct FoundLevel {
     pub report: Report,
     /// The generator that made the level.
     pub generator: &'static str,
-    /// The level's question to the player, if the level belongs to a course.
+    /// A sentence about the problem that the level poses to the player, if the level was made for a position in the
+    /// game.
     pub asks: Option<String>,
     /// The difficulty requested from the generator, from 0 to 1.
     pub difficulty: f64,
@@ -21,7 +22,7 @@ pub struct FoundLevel {
     pub candidate: u32,
     /// The candidate's seed.
     pub seed: SeedPath,
-    /// The level's demands on a player, if the level was made for a tier.
+    /// The measured demands on a player, such as the number of decisions, if the level was made for a tier.
     pub demand: Option<Demand>,
 }
 

@@ -30,8 +30,8 @@ const ROUNDS: u32 = 4;
 const ELITES: usize = 3;
 
 /// Invents game `number` of an order. Returns no game if every attempt that the order allows fails. Prefers the
-/// mechanics with the lowest counts in the census, and keeps the game apart from known games only. Cost: several core
-/// minutes per game.
+/// mechanics with the lowest use counts in the census, and keeps the game apart from known games only. Cost: several
+/// core minutes per game.
 pub fn invent_one(
     order: &GameOrder,
     census: &Census,
@@ -46,8 +46,9 @@ pub fn invent_one(
 
 /// Invents the games of an order in rounds. Each round takes the games of all earlier rounds into account. Any two of
 /// the games and the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart, and no two games share a
-/// title or most of their names. `canary` marks the games' files. The same order, known games and seed give the same
-/// games on any number of threads. Cost: several core minutes per game, on all threads of the current rayon pool.
+/// title or most of their names. The games' files contain `canary`, which identifies the release in text corpora. The
+/// same order, known games and seed give the same games on any number of threads. Cost: several core minutes per game,
+/// on all threads of the current rayon pool.
 ///
 /// If too few games succeed, the set contains fewer games than requested.
 ///
@@ -151,8 +152,8 @@ impl Maker<'_> {
     }
 }
 
-/// Returns the axes of an invention archive: the number of ports filled by types with opposed uses, the player's main
-/// activity, and the fraction of types that move by themselves.
+/// Returns the axes of an archive of inventions: the number of ports (roles of mechanics) filled by types with opposed
+/// uses, the player's main activity, and the fraction of types that move by themselves.
 fn axes() -> Vec<Axis> {
     vec![
         Axis::new("coupling", (2.0, 10.0), 4),

@@ -24,7 +24,7 @@ pub struct Kept {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptGame {
-    /// The rules, headed by title and canary.
+    /// The rules, headed by the title and the release's canary (its identifier in text corpora).
     pub text: String,
     /// The game card.
     pub card: Card,

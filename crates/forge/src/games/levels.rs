@@ -30,8 +30,8 @@ pub(crate) struct Drawn {
 /// The levels of a game, and the findings about them as a whole.
 #[derive(Clone, Debug)]
 pub struct FoundLevels {
-    /// The levels in the order of the game. If a ladder played, the levels are sorted from easiest to hardest
-    /// for the ladder. Otherwise they are in the requested order.
+    /// The levels in the order of the game. If a ladder (reference players of increasing strength) played them, they
+    /// are sorted from easiest to hardest for these players. Otherwise they are in the requested order.
     pub levels: Vec<FoundLevel>,
     /// The win rate of plain tree search on each level.
     pub mcts: Vec<Rate>,
@@ -91,15 +91,16 @@ impl Levels<'_> {
 }
 
 impl FoundLevel {
-    /// Returns the interactions that the level's win executes, not counting guards.
+    /// Returns the interactions that the level's win executes, not counting guards (rules that only keep sprites on the
+    /// board and out of walls).
     pub(crate) fn mechanics(&self, game: &Game, guards: &Guards) -> BTreeSet<usize> {
         let Some(win) = &self.report.witness else { return BTreeSet::new() };
         let guards: BTreeSet<usize> = guards.lines().collect();
         used_rules(game, &self.level, win).into_iter().filter(|line| !guards.contains(line)).collect()
     }
 
-    /// Returns the level's ease as measured by the ladder, from 0 to 1. If no ladder played, the ease is 0 for all
-    /// levels.
+    /// Returns the level's ease as measured by the ladder (reference players of increasing strength), from 0 to 1. If
+    /// no ladder played, the ease is 0 for all levels.
     pub(crate) fn ease(&self) -> f64 {
         self.report.ladder().and_then(|ladder| ladder.ease).unwrap_or_default()
     }

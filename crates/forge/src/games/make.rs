@@ -1,4 +1,4 @@
-//! Builds games from kernels.
+//! Builds games from kernels, which are hand-written game designs.
 
 use super::attempt::Attempted;
 use super::candidate::{Candidate, MadeGame};
@@ -36,8 +36,8 @@ pub enum GamesError {
     },
 }
 
-/// Builds an order's games from kernels. `canary` marks their files. The same order, known games and seed give the same
-/// games on any number of threads.
+/// Builds an order's games from kernels, which are hand-written game designs. The files contain `canary`. The same
+/// order, known games and seed give the same games on any number of threads.
 ///
 /// - Any two of the games and the `known` games are at least [`NEAR`](validators::novelty::NEAR) apart.
 /// - No two games share a title or most of their names.
@@ -74,9 +74,9 @@ pub fn make_one(
     (made, tally)
 }
 
-/// Attempts to build a game from a kernel, in one of the open forms. This function is meant for kernel authors.
-/// `number` is the number of the attempt. Cost: 1 to 15 core seconds. Returns no game if the kernel or form does not
-/// exist, or if the attempt fails for a reason in the tally.
+/// Attempts to build a game from a kernel, in one of the open forms (variations of the kernel). This function is meant
+/// for kernel authors. `number` is the number of the attempt. Cost: 1 to 15 core seconds. Returns no game if the kernel
+/// or form does not exist, or if the attempt fails. The returned counts state the reason.
 pub fn attempt_kernel(
     order: &GameOrder,
     kernel: &str,
@@ -116,7 +116,8 @@ impl GameSet {
 }
 
 impl<'a> Maker<'a> {
-    /// Creates a maker that builds games from kernels. Such games are drawn at random, whatever the order's method.
+    /// Creates a maker that builds games from kernels (hand-written designs). Such games are drawn at random, whatever
+    /// the order's method.
     fn of_kernels(
         order: &'a GameOrder,
         known: &'a [GameForm],

@@ -1,9 +1,9 @@
 //! Whole games on request, for `arcade generate games` and for minting releases.
 //!
-//! Rules are either drawn from kernels or invented. Inventions are drawn at random, or found by a search that evaluates
-//! them quickly on a few boards. Levels are then found. If the game needs a time limit, the limit is derived from the
-//! levels' wins. The panel makes the final decision, with its own seeds and with players that no search has used. The
-//! number of threads does not change any byte of the output.
+//! Rules are either drawn from hand-written designs (kernels) or invented. Inventions are drawn at random, or found by
+//! a search that evaluates them quickly on a few boards. Levels are then found. If the game needs a time limit, the
+//! limit is derived from the levels' wins. The panel makes the final decision, with its own seeds and with players that
+//! no search has used. The number of threads does not change any byte of the output.
 
 mod apart;
 mod attempt;

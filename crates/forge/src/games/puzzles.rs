@@ -1,4 +1,5 @@
-//! Puzzles for one game, generated for a tier: pushing puzzles with or without strays, lock puzzles, and yards.
+//! Puzzles for one game, generated for a difficulty tier: lock puzzles, yards (carrying parcels), and pushing puzzles
+//! with or without wandering deadly sprites.
 
 use agents::search::{Answer, Pushes, SearchLimits, a_star};
 use base::{Seed, SeedPath};
@@ -17,7 +18,7 @@ use validators::Tier;
 pub struct PuzzleLevels {
     /// The configuration of the levels, with the board sizes.
     pub config: LevelConfig,
-    /// The tier of each level.
+    /// The tier (difficulty class) of each level.
     pub tiers: Vec<Tier>,
     /// The rules of the puzzles.
     pub rules: PuzzleRules,
@@ -32,9 +33,9 @@ pub enum PuzzleRules {
     Pushing,
     /// Lock puzzles, in which doors use up keys.
     Locks(Retold<LockRules>),
-    /// Yards, in which the player carries parcels past moving carts.
+    /// Yards: puzzles in which the player carries parcels past moving carts.
     Yards(Retold<YardRules>),
-    /// Pushing puzzles among strays (sprites that wander at random and kill).
+    /// Pushing puzzles among deadly sprites that wander at random.
     Strays(Retold<PushRules>),
 }
 
@@ -44,12 +45,14 @@ impl PuzzleRules {
         PuzzleRules::Locks(Retold::of(rules, LockRules::SYMBOLS, retold))
     }
 
-    /// Returns the rules of yards for a game that has `rules` in the theme of `retold`.
+    /// Returns the rules of yards (puzzles about carrying parcels) for a game that has `rules` in the theme of
+    /// `retold`.
     pub fn yards(rules: YardRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Yards(Retold::of(rules, YardRules::SYMBOLS, retold))
     }
 
-    /// Returns the rules of pushing puzzles among strays for a game that has `rules` in the theme of `retold`.
+    /// Returns the rules of pushing puzzles among wandering deadly sprites, for a game that has `rules` in the theme of
+    /// `retold`.
     pub fn strays(rules: PushRules, retold: &Rethemed) -> PuzzleRules {
         PuzzleRules::Strays(Retold::of(rules, PushRules::SYMBOLS, retold))
     }
@@ -85,7 +88,7 @@ pub(crate) enum PuzzleGenerator<'a> {
     /// Generates pushing puzzles that meet a target.
     Pushing(Box<PuzzleVariation<'a>>),
     /// Generates pushing puzzles without a target. The range contains the numbers of actions in a win that the tier
-    /// allows.
+    /// (difficulty class) allows.
     Easy(Box<PuzzleVariation<'a>>, Range<usize>),
     Locks(LockConfig, &'a Retold<LockRules>),
     Yards(YardConfig, &'a Retold<YardRules>),
@@ -93,8 +96,8 @@ pub(crate) enum PuzzleGenerator<'a> {
 }
 
 impl PuzzleGenerator<'_> {
-    /// Generates the level for a seed, with a winning sequence of actions. The actions win with the random draws of
-    /// the seed `of_win`, or as long as no stray is in the way.
+    /// Generates the level for a seed, with a winning sequence of actions. The actions win with the random draws of the
+    /// seed `of_win`, or as long as no wandering sprite is in the way.
     pub(crate) fn create_solved(
         &self,
         game: &Game,
@@ -134,18 +137,18 @@ impl PuzzleGenerator<'_> {
     }
 }
 
-/// The exclusive upper limit on the number of actions in a win among strays. The longest fuse leaves time for 50% more
-/// actions.
+/// The exclusive upper limit on the number of actions in a win among wandering deadly sprites. The longest fuse leaves
+/// time for 50% more actions.
 const MOST_ACTIONS: usize = 160;
 /// The maximum number of floor plans to examine per level.
 const FLOOR_PLANS: usize = 20_000;
 /// The maximum number of floor plans without a target.
 const FEW_FLOOR_PLANS: usize = 60;
-/// The maximum number of levels to draw until one has as many actions as the tier requires.
+/// The maximum number of levels to draw until one has the number of actions that the tier (difficulty class) requires.
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
-    /// Returns the tier of a position in the game.
+    /// Returns the tier (difficulty class) of a position in the game.
     pub(crate) fn tier(&self, number: u32) -> Tier {
         self.tiers.get(number as usize).copied().unwrap_or(Tier::Four)
     }
@@ -214,8 +217,8 @@ fn dead_ends(tier: Tier) -> f64 {
     }
 }
 
-/// Returns the number of carts in a yard, and the fraction of the win's ticks during which staying in place would be
-/// fatal.
+/// Returns the number of carts in a yard (a puzzle about carrying parcels), and the fraction of the win's ticks during
+/// which staying in place would be fatal.
 fn traffic(tier: Tier) -> (usize, f64) {
     match tier {
         Tier::One => (1, 0.0),
@@ -225,9 +228,9 @@ fn traffic(tier: Tier) -> (usize, f64) {
     }
 }
 
-/// Returns the target for a tier; `None` for tiers without a target. The generator counts the actions of a win with the
-/// minimum number of pushes. The shortest win has fewer actions, so the target includes a margin. Puzzles with more
-/// than three pushable objects require more pushes and actions.
+/// Returns the target for a tier (difficulty class); `None` for tiers without a target. The generator counts the
+/// actions of a win with the minimum number of pushes. The shortest win has fewer actions, so the target includes a
+/// margin. Puzzles with more than three pushable objects require more pushes and actions.
 fn target(tier: Tier, things: usize) -> Option<PuzzleTarget> {
     let pushes = match tier {
         Tier::One | Tier::Two => return None,
@@ -295,8 +298,8 @@ mod tests {
         }
     }
 
-    /// In a different theme, a lock puzzle or a yard keeps its level and its winning actions. Outside of
-    /// `cargo xtask sweep`, this test checks only every second set of rules.
+    /// In a different theme, a lock puzzle or a yard (a puzzle about carrying parcels) keeps its level and its winning
+    /// actions. Outside of `cargo xtask sweep`, this test checks only every second set of rules.
     #[test]
     fn puzzles_are_won_under_every_theme() {
         let seed = Seed::from_text("puzzles");

@@ -13,7 +13,7 @@ use generators::{Annealing, AnnealingConfig, Evaluation, Search, Variation};
 pub(super) const REFUSED: f64 = 0.95;
 
 /// Evaluates an invention cheaply. Returns the evaluation and the number of forward-model calls. Costs as much as the
-/// stage `quick look`.
+/// pipeline stage `quick look`.
 fn look(invention: &Invention, seed: Seed) -> (Evaluation, u64) {
     let Profile { coupling, verb, pace } = invention.profile();
     let measures = vec![coupling as f64, verb.number() as f64, pace];

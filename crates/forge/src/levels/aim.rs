@@ -26,7 +26,7 @@ pub(super) struct Told {
     pub(super) calls: u64,
 }
 
-/// The number of episodes per ladder player in a quick evaluation.
+/// The number of episodes per player of the ladder (reference players of increasing strength) in a quick evaluation.
 const PLAYS: u64 = 6;
 /// The margin that searches keep from the boundaries of a label's ease range. A second measurement may move a level
 /// that lies within this margin across the boundary.
@@ -35,7 +35,8 @@ const MARGIN: f64 = 0.08;
 /// it, meet at most 90% of the constraint.
 const KEPT: f64 = 0.03;
 const CLOSE: f64 = 0.9;
-/// The win rate over all ladder episodes above which a second ladder is almost certain to have a winner too.
+/// The win rate over all episodes of the ladder (reference players of increasing strength) above which a second
+/// measurement is almost certain to have a winner too.
 const SURELY_BEATEN: f64 = 0.05;
 /// The desired length of a win, as a multiple of the board's columns plus its rows.
 const CROSSINGS: f64 = 2.5;
@@ -58,8 +59,8 @@ impl<'a> Aim<'a> {
         Aim { analysis, order, layout: LevelMeasures::new(analysis), climb }
     }
 
-    /// Assesses a level with a winning witness. Costs a few replays of the witness, and a ladder's episodes if a
-    /// difficulty is requested.
+    /// Assesses a level with a winning witness. Costs a few replays of the witness. If a difficulty is requested, also
+    /// costs the episodes of the ladder's reference players.
     pub(super) fn tell(&self, case: Case<'_>) -> Told {
         let witness = case.witness.expect("a level that can be won");
         let measures =
@@ -127,13 +128,13 @@ fn within(label: Difficulty, margin: f64) -> Option<[f64; 2]> {
     Some([if low > 0.0 { low + margin } else { low }, if high < 1.0 { high - margin } else { high }])
 }
 
-/// Returns `true` if a ladder's measurement confirms a label with a margin.
+/// Returns `true` if the measurement by the ladder's reference players confirms a difficulty label with a margin.
 pub(crate) fn bears(ladder: &Ladder, asked: Difficulty, margin: f64) -> bool {
     let (Some(ease), Some([low, high])) = (ladder.ease, within(asked, margin)) else { return false };
     ladder.difficulty == asked && (low..=high).contains(&ease)
 }
 
-/// Returns the fraction of a ladder's episodes that were won.
+/// Returns the fraction of episodes that the ladder's reference players won.
 pub(crate) fn wins(ladder: &Ladder) -> f64 {
     let plays: u64 = ladder.rungs.iter().map(|fared| fared.rate.plays).sum();
     let wins: u64 = ladder.rungs.iter().map(|fared| fared.rate.wins).sum();

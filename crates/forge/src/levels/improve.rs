@@ -70,8 +70,8 @@ impl Maker<'_> {
                     return (None, tally);
                 }
             }
-            // A round counts at a minimum cost even if all its looks are cheap, and at full cost if the search could
-            // not propose any level.
+            // A round counts at a minimum cost even if all its quick evaluations are cheap. It counts at full cost if
+            // the search could not propose any level.
             let least = if spent > 0.0 { LEAST_EFFORT } else { 1.0 };
             left -= spent.max(least * looks as f64);
             round += 1;
@@ -112,7 +112,8 @@ impl Maker<'_> {
                     break;
                 }
             }
-            // Many levels that pass a look are not good enough, so all of them are judged before more levels are bred.
+            // Many levels that pass a quick evaluation are not good enough, so all of them are judged before more
+            // levels are bred.
             while set.levels.len() < wanted {
                 let is_near =
                     |one: &Level, other: &Level| round < CHOOSY && self.likeness.distance(one, other) <= NEAR;
@@ -173,7 +174,8 @@ impl Maker<'_> {
             found.extend(looked);
             at += batch;
             if found.is_empty() && at as f64 >= effort {
-                // Stop after the usual number of looks without a level, because further attempts will fail as well.
+                // Stop after the usual number of quick evaluations without a level, because further attempts will fail
+                // as well.
                 break;
             }
         }

@@ -55,7 +55,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// Counts the look in a tally.
+    /// Adds the result of the quick evaluation to the counts.
     pub(super) fn count(&self, tally: &mut Tally) {
         tally.look(self.obstacle.is_none(), self.calls);
         self.obstacle.into_iter().for_each(|obstacle| tally.reject(obstacle));
@@ -65,7 +65,7 @@ impl Look {
 /// The effort of a quick evaluation that ends with the first, cheap judges.
 pub(super) const LEAST_EFFORT: f64 = 1.0 / 8.0;
 
-/// The cost of a look so far.
+/// The cost of a quick evaluation so far.
 #[derive(Default)]
 struct Spent {
     /// The number of forward-model calls.
@@ -132,7 +132,8 @@ impl<'a> Looker<'a> {
     }
 
     /// Evaluates a level quickly. The same level always gets the same result. Cost: a few hundred random episodes,
-    /// [`super::Effort::calls`] forward-model calls, and a ladder's calls if a difficulty is requested.
+    /// [`super::Effort::calls`] forward-model calls, and the calls of the ladder's reference players if a difficulty is
+    /// requested.
     pub(super) fn look(&self, level: &Level) -> Look {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let mut constraints = Constraints { values: [0.0; CONSTRAINTS], met: 0 };
@@ -258,7 +259,7 @@ impl<'a> Looker<'a> {
 fn passes(finding: &Finding) -> f64 {
     match finding.verdict {
         Verdict::Pass { .. } => 1.0,
-        // An unknown verdict counts as a pass in a look, because the panel makes the decision.
+        // An unknown verdict counts as a pass in a quick evaluation, because the panel makes the decision.
         Verdict::Unknown { .. } => 1.0,
         Verdict::Fail { .. } => 0.0,
     }

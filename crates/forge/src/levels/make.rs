@@ -211,8 +211,8 @@ impl Maker<'_> {
         set
     }
 
-    /// Returns `true` if no ladder player has won any of the judged levels, although the requested difficulty requires
-    /// frequent wins. Further levels are then unlikely to be easier.
+    /// Returns `true` if no player on the ladder of reference players has won any of the judged levels, although the
+    /// requested difficulty requires frequent wins. Further levels are then unlikely to be easier.
     pub(super) fn is_hopeless(&self, tally: &Tally) -> bool {
         let by_difficulty = tally.rejections.get(DIFFICULTY).copied().unwrap_or_default();
         let often =
@@ -225,7 +225,7 @@ impl Maker<'_> {
     }
 }
 
-/// The number of judged levels without a win by any ladder player after which no win is expected.
+/// The number of judged levels without a win by any reference player on the ladder after which no win is expected.
 const HOPELESS: u64 = 6;
 
 /// The number of boards to draw for an unjudged level.

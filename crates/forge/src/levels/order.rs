@@ -54,7 +54,8 @@ pub struct LevelOrder {
     /// The level size and the other settings of the constructive generator. If [`LevelOrder::difficulty`] is set, it
     /// overrides the configuration's difficulty.
     pub config: LevelConfig,
-    /// The difficulty of each level, measured with the ladder of the criteria.
+    /// The difficulty of each level, measured by the ladder in the criteria, which is a list of reference players of
+    /// increasing strength.
     pub difficulty: Option<Difficulty>,
     /// The minimum number of ticks in the shortest win found.
     pub min_solution: Option<usize>,
@@ -92,7 +93,8 @@ pub struct MadeLevel {
     pub level: Level,
     /// The findings of the level's judges; `None` if the level was not judged.
     pub report: Option<Report>,
-    /// The ladder that measured the level's difficulty; `None` if no difficulty was requested.
+    /// The results of the ladder's reference players that measured the level's difficulty; `None` if no difficulty was
+    /// requested.
     pub ladder: Option<Ladder>,
 }
 
@@ -138,7 +140,8 @@ impl LevelOrder {
 
     /// Returns the configuration of puzzles, with the number of pushable objects from the order's configuration. An
     /// archive improves each level afterwards, so it needs few floor plans. If a difficulty is requested, the position
-    /// farthest from a solution is seldom suitable, because few ladder players win such long puzzles.
+    /// farthest from a solution is seldom suitable, because few of the ladder's reference players win such long
+    /// puzzles.
     pub(super) fn puzzle(&self, analysis: &Analysis) -> PuzzleConfig {
         let pushed =
             |stype: &SpriteType| analysis.pushables().iter().any(|pushable| pushable.stype == *stype);

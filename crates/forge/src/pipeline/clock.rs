@@ -11,10 +11,10 @@ use validators::{Cost, Criterion, CriterionSet, Effort, Judgement, Panel, Verdic
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
 /// The minimum time limit, as a multiple of the length of the longest known win.
 const TIME_PER_WIN: f64 = 2.5;
-/// The minimum fraction of careless episodes that the rules must end in a game without a time limit, averaged over the
-/// levels.
+/// The minimum fraction of episodes of careless players that the rules must end in a game without a time limit,
+/// averaged over the levels. Careless players press a random key in some ticks.
 const ENDED_PLAYS: f64 = 0.5;
-/// The tally entry for a failed attempt to omit the time limit.
+/// The reason counted for a failed attempt to omit the time limit.
 const NO_CLOCK: &str = "no time limit";
 
 impl<'a> Trial<'a> {
@@ -68,7 +68,8 @@ impl<'a> Trial<'a> {
         Ok(version)
     }
 
-    /// Returns `true` if the rules of a game without a time limit end careless episodes.
+    /// Returns `true` if the rules of a game without a time limit end the episodes of careless players, which press a
+    /// random key in some ticks.
     fn ends_without_limit(&self, candidate: &Candidate) -> bool {
         let Levels { criteria, seed, .. } = self.levels;
         let share = |(number, found): (u64, &FoundLevel)| {
@@ -90,8 +91,9 @@ pub(super) fn time_limit(longest: usize) -> u32 {
 }
 
 impl Levels<'_> {
-    /// Judges a level that was found under a different time limit, using all judges except the ladder. Reuses the
-    /// result of the win search if that win is still valid. The seeds are unchanged, so a replay ends as before.
+    /// Judges a level that was found under a different time limit, using all judges except the ladder of reference
+    /// players. Reuses the result of the win search if that win is still valid. The seeds are unchanged, so a replay
+    /// ends as before.
     fn rejudge(&self, game: &Game, found: &FoundLevel, tally: &mut Tally) -> Option<FoundLevel> {
         let level = game.level(&found.level.to_string()).ok()?;
         let witness = replayed(game, &level, found.report.witness.as_ref()?);

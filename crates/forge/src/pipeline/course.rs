@@ -8,10 +8,10 @@ use crate::tally::Tally;
 use engine::{Analysis, Game, Level};
 use validators::{Criterion, CriterionSet, Effort, Judging, Panel, Report, SkillOverall};
 
-/// The number of levels to find first in a course: the first two and the last.
+/// The number of levels of a course (a game's levels in order of difficulty) to find first: the first two and the last.
 const OUTLINE: usize = 3;
 
-/// The number of further candidates to try for a course's first level if the level found leaves no new mechanic for
+/// The number of further candidates to try for the first level of a game if the level found leaves no new mechanic for
 /// later levels. If all of these candidates share the fault, more are unlikely to help.
 const INTRODUCTIONS: u32 = 3;
 
@@ -87,21 +87,21 @@ impl<'a> Begun<'a> {
         }
         begun.found.sort_by_key(|(number, _)| *number);
         let mut found: Vec<FoundLevel> = begun.found.into_iter().map(|(_, level)| level).collect();
-        // The requested difficulty is only a guess, but the ladder's result is a measurement. A course keeps its own
-        // order.
+        // The requested difficulty is only a guess, but the result of the ladder's reference players is a measurement.
+        // A course keeps its own order.
         if !levels.source.is_ordered() {
             found.sort_by(|a, b| b.ease().total_cmp(&a.ease()));
         }
         Ok(found)
     }
 
-    /// Returns `true` for a course with levels outside its outline.
+    /// Returns `true` if the levels form a course that has more levels than those found first.
     fn is_longer_than_outline(&self) -> bool {
         self.levels.source.is_course() && self.levels.count as usize > OUTLINE
     }
 
     fn ask_for_something_left(&mut self, tally: &mut Tally) -> Passage {
-        // In a short course, the middle level may introduce something new.
+        // In a game with few levels, the middle level may introduce something new.
         if self.found.len() != 2 || !self.is_longer_than_outline() {
             return Ok(());
         }

@@ -45,7 +45,7 @@ impl<'a> Trial<'a> {
         Trial { candidate, levels, demands, found: Vec::new(), together: Vec::new(), made: None }
     }
 
-    /// Takes the game through the stages. Returns `None`, with the reason in the tally, if a stage rejects the game.
+    /// Takes the game through the stages. If a stage rejects the game, counts the reason in `tally` and returns `None`.
     pub(super) fn pass(mut self, stages: &[Stage<Self>], tally: &mut Tally) -> Option<MadeGame> {
         match walk(stages, &mut self, tally) {
             Ok(()) => tally.game_accepted(),
@@ -57,8 +57,8 @@ impl<'a> Trial<'a> {
 }
 
 impl Levels<'_> {
-    /// Builds a game from known rules by finding levels that meet the criteria, both individually and together. Returns
-    /// `None`, with the reason in the tally, if a stage rejects the game.
+    /// Builds a game from known rules by finding levels that meet the criteria, both individually and together. If a
+    /// stage rejects the game, counts the reason in `tally` and returns `None`.
     pub fn make(&self, candidate: Candidate, tally: &mut Tally) -> Option<MadeGame> {
         let demands = Demands {
             known: &[],
@@ -106,7 +106,7 @@ impl<'a> GameGate<'a> {
         GameGate { order, method, known, canary, criteria, panel, cheap }
     }
 
-    /// Takes a game through the stages. Returns `None`, with the reason in the tally, if a stage rejects the game.
+    /// Takes a game through the stages. If a stage rejects the game, counts the reason in `tally` and returns `None`.
     /// `number` is recorded on the card.
     pub(crate) fn judge<R: Rules>(
         &self,

@@ -12,34 +12,34 @@ use generators::games::GeneratedGame;
 use generators::invention::{Invented, Invention};
 use validators::CheckedCriteria;
 
-/// The demand of a board, from 0 to 4, at difficulty 1.
+/// The last position in the sequence of levels, counted from 0. It corresponds to a difficulty of 1.
 const DEMANDS: u8 = 4;
 
-/// The minimum demand of a board at which mechanics must matter.
+/// The first position in the sequence of levels at which the mechanics of a board must matter.
 const JOINT: u8 = 2;
-/// The number of mechanics that must matter on a board below the highest demand. At the highest demand, every mechanic
-/// must matter.
+/// The number of mechanics that must matter on a board before the last position in the sequence of levels. At the last
+/// position, every mechanic must matter.
 const LEAST_JOINT: usize = 2;
 
-/// The demand of the boards in a quick look.
+/// The position in the sequence of levels for which boards are made in a quick evaluation.
 const LOOK_DEMAND: u8 = 1;
-/// The number of boards in a quick look.
+/// The number of boards in a quick evaluation.
 const LOOKS: usize = 24;
-/// The number of boards in a quick look after which a game without a winnable board is rejected. With good rules, at
-/// least one in five compositions is winnable. A quick look rejects more than half of all rule sets, so it should be
-/// cheap rather than accurate.
+/// The number of boards in a quick evaluation after which a game without a winnable board is rejected. With good rules,
+/// at least one in five compositions is winnable. A quick evaluation rejects more than half of all rule sets, so it
+/// should be cheap rather than accurate.
 const HOPELESS: usize = 8;
-/// The maximum number of forward-model calls in a quick look's search for a win.
+/// The maximum number of forward-model calls in a quick evaluation's search for a win.
 const LOOK_SEARCH: u64 = 20_000;
-/// The total number of forward-model calls for a quick look's boards.
+/// The total number of forward-model calls for a quick evaluation's boards.
 const LOOK_CALLS: u64 = 1_500_000;
 /// The number of forward-model calls in the search for a board on which every mechanic matters.
 const JOINT_CALLS: u64 = 2_000_000;
 /// The reason for rejecting a game without a board on which every mechanic matters.
 pub(super) const USELESS: &str = "a mechanic does not matter";
-/// The minimum fraction of necessary interactions on a quick look's best board.
+/// The minimum fraction of necessary interactions on a quick evaluation's best board.
 const LEAST_NECESSITY: f64 = 0.4;
-/// The minimum fraction of wrong choices that have a cost on a quick look's best board.
+/// The minimum fraction of wrong choices that have a cost on a quick evaluation's best board.
 const LEAST_TRAPS: f64 = 0.1;
 /// The maximum degree to which an unmet condition can count as met.
 const NEARLY: f64 = 0.999;
@@ -110,7 +110,7 @@ impl BoardSource for InventedBoards {
     }
 }
 
-/// The result of a quick look at an invented game. A quick look is a cheap evaluation on a few boards.
+/// The result of a quick evaluation of an invented game, on a few boards.
 pub(crate) struct QuickLook {
     /// The best board's measures; `None` if no board is winnable.
     board: Option<BoardMeasures>,
@@ -153,8 +153,8 @@ impl QuickLook {
 }
 
 impl InventedBoards {
-    /// Returns a brief for composing boards. The brief specifies the invention's idioms for exits, and for types whose
-    /// idiom does not follow from the rules alone.
+    /// Returns a request for composing boards. It specifies where exits are placed, and where types are placed whose
+    /// placement does not follow from the rules alone.
     fn brief(&self, analysis: &Analysis, demand: u8) -> BoardBrief {
         let game = analysis.game();
         let named = self.idioms.iter().filter_map(|(name, idiom)| Some((game.sprite_type(name)?, *idiom)));

@@ -1,4 +1,4 @@
-//! The stage in which a ladder of players plays a game's levels.
+//! The stage in which the ladder, a list of reference players of increasing strength, plays a game's levels.
 
 use super::game::Trial;
 use super::level::Place;
@@ -9,7 +9,8 @@ use crate::tally::Tally;
 use engine::Game;
 use validators::{Cost, Criterion, CriterionSet, Judging};
 
-/// The maximum number of a course's levels that may fail the ladder. If more levels fail, the game is rejected.
+/// The maximum number of a game's levels that may fail when the ladder of reference players plays them. If more levels
+/// fail, the game is rejected.
 const MISFITS: u32 = 5;
 
 impl Trial<'_> {
@@ -37,12 +38,12 @@ impl Trial<'_> {
 }
 
 impl Levels<'_> {
-    /// Judges a course's levels with the player ladder. A failing level is replaced with the next passing candidate for
-    /// the same position.
+    /// Judges the levels of a game with the ladder of reference players. A failing level is replaced with the next
+    /// passing candidate for the same position.
     ///
     /// # Errors
-    /// Returns an error if no candidate for a position passes, or if so many levels fail that the game itself is
-    /// likely to be at fault.
+    /// Returns an error if no candidate for a position passes, or if so many levels fail that the game itself is likely
+    /// to be at fault.
     pub(super) fn judge_by_ladder(
         &self,
         game: &Game,

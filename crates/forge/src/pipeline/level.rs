@@ -13,8 +13,8 @@ use validators::{
     Verdict,
 };
 
-/// The minimum length of a later level's win, as a fraction of the length of an earlier level's win. The wins of a
-/// course must not become much shorter again.
+/// The minimum length of a later level's win, as a fraction of the length of an earlier level's win. Wins must not
+/// become much shorter from level to level.
 pub(super) const LATER_SHARE: f64 = 0.6;
 
 /// The position of a level within its game, and the levels at other positions.
@@ -218,7 +218,8 @@ impl LevelTrial<'_> {
         if is_early { Err(Criterion::NotInstant.into()) } else { Ok(()) }
     }
 
-    /// Rejects a level that fails the gate against dead time when judged on its own.
+    /// Rejects a level that fails the gate against dead time (ticks in which play has no effect) when judged on its
+    /// own.
     fn refuse_dead_time(&mut self, tally: &mut Tally) -> Passage {
         let Some(found) = self.found_of_course() else { return Ok(()) };
         let panel = self.place.levels.panel_of(CriterionSet::of(&[Criterion::NoDeadTime]));
@@ -254,8 +255,8 @@ impl LevelTrial<'_> {
         self.found.as_ref().filter(|_| self.is_of_course())
     }
 
-    /// Returns the gate against instant wins, if it applies to the level at this position. In a course that is long
-    /// enough to allow one exception, the second level is exempt.
+    /// Returns the gate against instant wins, if it applies to the level at this position. If a game has enough levels
+    /// to allow one exception, the second level is exempt.
     fn not_instant(&self) -> Option<NotInstant> {
         let Levels { criteria, count, .. } = *self.place.levels;
         let gates = &criteria.gates;
@@ -272,7 +273,7 @@ impl<'a> LevelTrial<'a> {
     }
 }
 
-/// Returns `true` if winning a level takes at least about as long as winning an earlier level of the course.
+/// Returns `true` if winning a level takes at least about as long as winning an earlier level of the game.
 fn takes_as_long(found: &FoundLevel, earlier: &FoundLevel) -> bool {
     let ticks = |found: &FoundLevel| found.report.witness.as_ref().map_or(0, |win| win.actions.len());
     ticks(found) as f64 >= LATER_SHARE * ticks(earlier) as f64

@@ -72,8 +72,8 @@ impl Place<'_> {
         f64::from(self.number) / f64::from((self.levels.count - 1).max(1))
     }
 
-    /// Takes candidate number `candidate` through a level's stages. Returns `None`, with the reason in the tally, if
-    /// the candidate does not pass.
+    /// Takes candidate number `candidate` through a level's stages. If the candidate does not pass, counts the reason
+    /// in `tally` and returns `None`.
     fn judge_candidate(&self, boards: &dyn Boards, candidate: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let places = self.levels.seed.child("level", u64::from(self.number));
         let seed = places.child("candidate", u64::from(candidate));

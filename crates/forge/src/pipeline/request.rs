@@ -17,12 +17,12 @@ const LUCK_PLAYS: u32 = 5;
 /// episodes, so its limit is strict.
 const LUCK_WINS: f64 = 1.6;
 
-/// The ladders that measure a level's difficulty. Each entry is the factor applied to the criteria's number of
-/// episodes, and the minimum distance between the ease and any other label. The first ladder rejects most levels. The
-/// second ladder plays more episodes, to correct for the selection of lucky levels.
+/// The measurements of a level's difficulty by the ladder of reference players. Each entry is the factor applied to the
+/// criteria's number of episodes, and the minimum distance between the ease and any other label. The first measurement
+/// rejects most levels. The second plays more episodes, to correct for the selection of lucky levels.
 const LADDERS: [(u64, f64); 2] = [(1, 0.03), (3, 0.045)];
-/// The minimum fraction of all ladder episodes that must be won. A rarely won level might have no win on a second
-/// ladder.
+/// The minimum fraction of all episodes of the ladder's reference players that must be won. A rarely won level might
+/// have no win in a second measurement.
 const BEATEN: f64 = 0.02;
 
 /// The reason for rejecting a level whose difficulty differs from the requested one.
@@ -44,7 +44,8 @@ pub(super) struct RequestTrial<'a> {
     /// The seed for judging the level. The same level always gets the same verdict.
     seed: Seed,
     report: Report,
-    /// The ladder that measures the difficulty; `None` if no difficulty was requested.
+    /// The results of the ladder's reference players, which measure the difficulty; `None` if no difficulty was
+    /// requested.
     ladder: Option<Ladder>,
 }
 
@@ -60,7 +61,8 @@ impl<'a> LevelGate<'a> {
         LevelGate { analysis, order, panel, climb, seed }
     }
 
-    /// Takes a level through the stages. Returns `None`, with the reason in the tally, if a stage rejects the level.
+    /// Takes a level through the stages. If a stage rejects the level, counts the reason in the result's tally, and
+    /// returns `None`.
     pub(crate) fn judge(&self, number: u32, level: &Level) -> (Option<MadeLevel>, Tally) {
         let seed = self.seed.child(&level.digest().to_string(), 0);
         let report = Report { judgements: Vec::new(), witness: None };

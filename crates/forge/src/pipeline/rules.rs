@@ -78,7 +78,8 @@ impl Trial<'_> {
     }
 }
 
-/// Counts the interactions that the levels' wins execute, not counting guards.
+/// Counts the interactions that the levels' wins execute, not counting guards (rules that only keep sprites on the
+/// board and out of walls).
 fn mechanics(game: &Game, levels: &[FoundLevel]) -> usize {
     let guards = Guards::of(&Analysis::of(game));
     levels.iter().flat_map(|found| found.mechanics(game, &guards)).collect::<BTreeSet<usize>>().len()

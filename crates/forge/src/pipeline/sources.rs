@@ -51,8 +51,8 @@ pub trait BoardSource: Sync {
     /// Returns the name used on cards.
     fn name(&self) -> &'static str;
 
-    /// Returns `true` if the levels form a course. Each level of a course demands more than the levels before it, and
-    /// the levels must fit together.
+    /// Returns `true` if the levels form a course, in which each level demands more than the levels before it. The
+    /// levels must then fit together.
     fn is_course(&self) -> bool {
         false
     }
@@ -115,7 +115,8 @@ pub trait Boards {
 pub struct Board {
     /// The level on the board.
     pub level: Level,
-    /// The level's question to the player, if the level belongs to a course.
+    /// A sentence about the problem that the level poses to the player, if the level was made for a position in the
+    /// game.
     pub asks: Option<String>,
     /// A winning sequence of actions; `None` if none is known.
     pub known: Option<Vec<Action>>,
@@ -159,7 +160,8 @@ impl Boards for ConstructiveLevels<'_> {
     }
 }
 
-/// Generates levels from a kernel's maps. Each position has a slot in the course.
+/// Generates levels from the maps of a kernel (hand-written design). Each position in the game has its own purpose and
+/// maps.
 impl BoardSource for Course {
     fn name(&self) -> &'static str {
         "course"
@@ -184,7 +186,7 @@ impl BoardSource for Course {
     }
 }
 
-/// The boards for a slot in a course.
+/// The boards for one position in a course of levels.
 struct SlotBoards<'a> {
     game: &'a Game,
     course: &'a Course,
@@ -200,7 +202,7 @@ impl Boards for SlotBoards<'_> {
     }
 }
 
-/// Generates pushing puzzles, lock puzzles or yards. The tier depends on the position.
+/// Generates pushing puzzles, lock puzzles or yards (puzzles about carrying parcels). The tier depends on the position.
 impl BoardSource for PuzzleLevels {
     fn name(&self) -> &'static str {
         "puzzle"

@@ -6,7 +6,8 @@ use validators::{Criterion, CriterionSet};
 
 /// A stage for candidates of type `T`.
 pub(super) struct Stage<T> {
-    /// The stage's name in the documentation. Tallies also use it if the stage has its own judges.
+    /// The stage's name in the documentation. The counts of failed candidates also use it if the stage has its own
+    /// judges.
     pub(super) name: &'static str,
     /// The stage's question or task, as a phrase.
     pub(super) purpose: &'static str,

@@ -31,9 +31,9 @@ pub struct Edge {
     pub points: f64,
     /// Newcombe's 95% interval of the difference.
     pub interval: [f64; 2],
-    /// The mean gain in score of the ladder's strongest player over the player in `floor`, as a fraction of the level's
-    /// score range. The two players' episodes are paired by their random seeds. `None` if no level has differing
-    /// scores.
+    /// The mean gain in score of the strongest player on the ladder of reference players over the player in `floor`, as
+    /// a fraction of the level's score range. The two players' episodes are paired by their random seeds. `None` if no
+    /// level has differing scores.
     pub score: Option<f64>,
     /// The 95% bootstrap interval of the gain in score, over episodes.
     pub score_interval: Option<[f64; 2]>,
@@ -67,8 +67,8 @@ impl Player {
     }
 }
 
-/// Returns the players with their results over all levels. The ladder players come first, from weakest to strongest,
-/// followed by the held-out players. Levels without a ladder are skipped.
+/// Returns the players with their results over all levels. The players of the ladder come first, from weakest to
+/// strongest, followed by the held-out players. Levels that the ladder did not play are skipped.
 fn players(reports: &[Report]) -> Vec<Player> {
     let mut players: Vec<Player> = Vec::new();
     for report in reports {
@@ -102,9 +102,9 @@ fn players(reports: &[Report]) -> Vec<Player> {
 }
 
 impl Edge {
-    /// Computes the advantage of the strongest ladder player that looks ahead over the best one that does not. Returns
-    /// `None` if there is no ladder, or if all or none of the ladder players look ahead. The players must have the same
-    /// names in all reports.
+    /// Computes the advantage of the strongest reference player that looks ahead over the best one that does not. Only
+    /// players on the ladder count. Returns `None` if there is no ladder, or if all or none of its players look ahead.
+    /// The players must have the same names in all reports.
     pub(super) fn of(
         analysis: &Analysis,
         levels: &[Level],
@@ -171,14 +171,14 @@ impl Edge {
     }
 }
 
-/// Returns the number of episodes per player on a level's ladder.
+/// Returns the number of episodes that each reference player played on a level.
 fn plays_of(report: &Report) -> u64 {
     report.ladder().and_then(|ladder| ladder.rungs.first()).map_or(0, |fared| fared.rate.plays)
 }
 
-/// Returns the rank correlation between the players' positions in the ladder and their results over all levels,
-/// compared by wins first and then by score. The correlation is 1 if every stronger player does better, and 0 if all
-/// players do equally well. Returns `None` if no ladder played.
+/// Returns the rank correlation between the reference players' positions on the ladder (from weak to strong) and their
+/// results over all levels, compared by wins first and then by score. The correlation is 1 if every stronger player
+/// does better, and 0 if all players do equally well. Returns `None` if no ladder played.
 pub(super) fn ladder_order(reports: &[Report]) -> Option<f64> {
     let mut players = players(reports);
     players.retain(|player| !player.held_out);

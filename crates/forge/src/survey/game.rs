@@ -19,8 +19,8 @@ pub struct GameSurvey {
 const ASKED: CriterionSet = CriterionSet::of(&[Criterion::Winnable, Criterion::Skill]);
 
 impl GameSurvey {
-    /// Creates a survey. The ladder's players, the budgets and the thresholds come from `criteria`. The criteria's
-    /// fields `ask` and `held_out` are ignored.
+    /// Creates a survey. The ladder's reference players, the budgets and the thresholds come from `criteria`. The
+    /// criteria's fields `ask` and `held_out` are ignored.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.
@@ -55,7 +55,8 @@ impl GameSurvey {
     }
 
     /// Returns a game's row. The row does not depend on the other games or on the number of threads. Judges all levels
-    /// in parallel. Costs, for each level, the criteria's budgets for a win search and for a ladder.
+    /// in parallel. Costs, for each level, the criteria's budgets for a win search and for the ladder's reference
+    /// players.
     pub fn row(&self, name: &str, game: &Game, levels: &[Level]) -> GameRow {
         let seed = self.seed.child(&game.digest().to_string(), 0);
         let report = self.panel.judge(Judging::game(game, levels, seed));

@@ -1,4 +1,5 @@
-//! A survey of the fraction of games that pass each gate. The thresholds of the gates are based on this survey.
+//! A survey of the fraction of games that pass each gate, which is a criterion for a whole game. The thresholds of the
+//! gates are based on this survey.
 
 use base::Seed;
 use engine::{Episode, Game, Level};
@@ -8,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use validators::{Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel, Verdict};
 
-/// A survey that puts games through the gates one at a time and all in the same way.
+/// A survey that judges games by each gate (a criterion for a whole game) separately, and all games in the same way.
 pub struct GateSurvey {
     panel: Panel,
     /// The judges for levels with a known win.
@@ -22,7 +23,7 @@ pub struct GateSurvey {
 pub struct GateAnswer {
     /// `true` if the game passes the gate; `None` if the gate could not judge the game.
     pub passes: Option<bool>,
-    /// The figure measured by the gate.
+    /// The value measured by the gate.
     pub figure: Option<f64>,
     /// The details from the evidence.
     pub seen: Vec<String>,
@@ -107,7 +108,7 @@ impl GateRow {
     }
 
     /// Returns a table that compares groups of games. For each gate and group, it lists how many of the judged games
-    /// pass the gate, and the median of the gate's figure.
+    /// pass the gate, and the median of the value that the gate measured.
     pub fn table(groups: &[(&str, &[GateRow])]) -> Table {
         let columns =
             groups.iter().flat_map(|(group, _)| [format!("{group} pass"), format!("{group} median")]);

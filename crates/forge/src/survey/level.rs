@@ -19,8 +19,8 @@ pub struct SurveyedLevel {
     pub level: Level,
     /// The judges' findings.
     pub report: Report,
-    /// The level's player ladder, and the difficulty derived from it. The ladder's seeds have not been used in any
-    /// search.
+    /// The results of the ladder (reference players of increasing strength) on the level, and the difficulty derived
+    /// from them. The seeds have not been used in any search.
     pub ladder: Option<Ladder>,
     /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,
@@ -65,8 +65,9 @@ pub struct LevelSurvey<'a> {
 
 impl<'a> LevelSurvey<'a> {
     /// Creates a survey of one game's levels. Random play may win a tenth of its episodes, even if the criteria set a
-    /// lower limit to account for the selection among many candidates. The ladder is the criteria's ladder without the
-    /// held-out players, so difficulty has the same meaning as in `arcade generate levels --difficulty`.
+    /// lower limit to account for the selection among many candidates. The level is played by the criteria's ladder of
+    /// reference players without the held-out players, so difficulty has the same meaning as in `arcade generate levels
+    /// --difficulty`.
     ///
     /// # Errors
     /// Returns an error if the criteria are invalid.
@@ -77,7 +78,7 @@ impl<'a> LevelSurvey<'a> {
     ) -> Result<LevelSurvey<'a>, CriteriaError> {
         let criteria =
             Criteria { random_wins: criteria.random_wins.max(FOR_NOTHING), ..criteria.clone() }.check()?;
-        // The survey plays the ladder itself, and playing the ladder twice would be expensive.
+        // The survey plays the reference players' episodes itself, and playing them twice would be expensive.
         let panel = criteria.without(CriterionSet::costing(Cost::Ladder));
         Ok(LevelSurvey {
             analysis,
@@ -88,7 +89,8 @@ impl<'a> LevelSurvey<'a> {
         })
     }
 
-    /// Returns the same survey without a ladder. Such a survey does not measure difficulty or skill.
+    /// Returns the same survey without the ladder of reference players. Such a survey does not measure difficulty or
+    /// skill.
     #[must_use]
     pub fn without_ladder(self) -> LevelSurvey<'a> {
         LevelSurvey { climb: None, ..self }
@@ -96,7 +98,7 @@ impl<'a> LevelSurvey<'a> {
 
     /// Judges levels, each with its requested difficulty, on all threads of the current rayon pool. The result for a
     /// level does not depend on the other levels. Costs one run of the panel per level and, for each level with a
-    /// witness, one run of the ladder.
+    /// witness, the episodes of the ladder's reference players.
     pub fn judge(&self, levels: &[(Level, Option<Difficulty>)]) -> Vec<SurveyedLevel> {
         levels.par_iter().map(|(level, asked)| self.one(level, *asked)).collect()
     }

@@ -40,7 +40,8 @@ pub struct GameRow {
     pub there: u64,
     /// The advantage of the strongest player over the best player that does not look ahead.
     pub edge: Option<Edge>,
-    /// The rank correlation between the players' positions in the ladder and their results.
+    /// The rank correlation between the reference players' positions on the ladder (from weak to strong) and their
+    /// results.
     pub order: Option<f64>,
     /// The number of different interactions that the wins execute in total, not counting guards
     /// ([`PlayMeasures::mechanics`]).

@@ -1,4 +1,4 @@
-//! The simulated draws for a chain of months.
+//! The simulated draws of games for a chain of monthly releases.
 
 use super::clusters::Clusters;
 use super::month::{Again, Nearest, Sketch, WellMonth, WellOrder};
@@ -13,11 +13,11 @@ use validators::novelty::{GameForm, NEAR, distance};
 /// The larger of the two distances used to estimate the unseen probability mass.
 const FAR: f64 = 0.4;
 
-/// A function that draws a candidate's rules, given the census, the known games, the candidate's number and attempt,
-/// and a seed.
+/// A function that draws a candidate's rules, given the use counts of mechanics, the known games, the candidate's
+/// number and attempt, and a seed.
 pub(super) type Draw<'a> = &'a (dyn Fn(&Census, &[GameForm], (u32, u32), Seed) -> Option<Sketch> + Sync);
 
-/// A simulated chain of months.
+/// A simulated chain of monthly releases.
 pub(super) struct Chain<'a> {
     order: &'a WellOrder,
     /// The known games, and the games of earlier months.
@@ -223,8 +223,8 @@ struct Selection {
 }
 
 impl Selection {
-    /// Returns `true` if a candidate becomes a game. This requires room in the month, and no game of the month that is
-    /// similar or has the same title or cast.
+    /// Returns `true` if a candidate becomes a game. This requires that the month still needs games. No game of the
+    /// month may be similar, have the same title, or share most of its type names.
     fn takes(&mut self, sketch: &Sketch, nearest: f64, room: u32) -> bool {
         let has_words = |other: &Sketch| other.title == sketch.title || other.cast.is_shared(&sketch.cast);
         if self.games.len() >= room as usize {

@@ -1,4 +1,4 @@
-//! The well: the supply of games that a chain of months can still invent, measured by rules alone.
+//! An estimate of the number of games that a chain of monthly releases can still invent, based on rules alone.
 //!
 //! [`simulate`] draws a chain's invented games as minting does, but without boards. Every month takes the games of all
 //! earlier months into account and prefers the mechanics least used so far. `chain.rs` draws rules, `clusters.rs` and
@@ -27,8 +27,8 @@ const SUPPLY_SAMPLES: u64 = 500;
 /// The number of draws used to estimate how many rule sets are near a known game.
 const NEAR_SAMPLES: u64 = 64;
 
-/// Estimates the number of rule sets that are not near a known game, from a sample drawn as in a month that follows the
-/// census. Costs one or two core seconds, and a few microseconds per known game.
+/// Estimates the number of rule sets that are not near a known game. The sample is drawn as in a month that follows the
+/// games counted in the census. Costs one or two core seconds, and a few microseconds per known game.
 pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     let sets =
         InventionSupply::estimate(&InventionConfig::default(), SUPPLY_SAMPLES, seed.child("supply", 0))
@@ -46,8 +46,8 @@ pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     sets * new as f64 / NEAR_SAMPLES as f64
 }
 
-/// Simulates a chain of months whose invented games are kept apart from `known` games. `noted` is called with each
-/// month.
+/// Simulates a chain of monthly releases whose invented games are kept apart from `known` games. `noted` is called with
+/// each month.
 ///
 /// The same order, known games and seed give the same result on any number of threads. Costs about 10 core milliseconds
 /// per passing candidate, and a few microseconds per pair of candidates.

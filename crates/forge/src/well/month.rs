@@ -1,10 +1,10 @@
-//! Chains of months, and the games drawn in each month.
+//! Chains of monthly releases, and the games drawn in each month.
 
 use crate::games::Cast;
 use serde::Serialize;
 use validators::novelty::GameForm;
 
-/// A chain of months to simulate.
+/// A chain of monthly releases to simulate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WellOrder {
     /// The number of months.
@@ -26,7 +26,7 @@ impl Default for WellOrder {
     }
 }
 
-/// The months of a chain, with the number of rule sets to draw from.
+/// The months of a chain of releases, with the number of rule sets to draw from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Well {
     /// The order that was simulated.
@@ -39,7 +39,8 @@ pub struct Well {
     pub months: Vec<WellMonth>,
 }
 
-/// A month in a chain. Fractions and unseen probability masses cover all months up to and including this one.
+/// A month in a chain of releases. Fractions and unseen probability masses cover all months up to and including this
+/// one.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WellMonth {
     /// The month's number, from 1.
@@ -58,7 +59,7 @@ pub struct WellMonth {
     /// The number of candidates that share two mechanics, or one mechanic and the ending, with another candidate in the
     /// same month.
     pub same_idea: u64,
-    /// The number of candidates that share the title or cast of another candidate in the month.
+    /// The number of candidates that share the title or most type names of another candidate in the month.
     pub same_words: u64,
     /// The number of new games.
     pub games: u32,
@@ -73,7 +74,7 @@ pub struct WellMonth {
     pub unseen_near: Option<f64>,
     /// Like [`WellMonth::unseen_near`], but for a distance of at least 0.4.
     pub unseen_far: Option<f64>,
-    /// The estimated probability mass of unseen pairs of merged ports.
+    /// The estimated probability mass of unseen couplings, which are merged pairs of ports (roles of mechanics).
     pub unseen_couplings: Option<f64>,
     /// The estimated probability mass of unseen mechanics, not counting endings.
     pub unseen_mechanics: Option<f64>,
@@ -81,7 +82,7 @@ pub struct WellMonth {
     pub top_mechanic: Option<Top>,
     /// The ending that occurs in the most games.
     pub top_ending: Option<Top>,
-    /// The merged port pair that occurs in the most games.
+    /// The coupling (merged pair of ports) that occurs in the most games.
     pub top_coupling: Option<Top>,
     /// The texts of the new games that were already used within the preceding year.
     pub again: Again,

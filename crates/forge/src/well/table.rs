@@ -1,4 +1,4 @@
-//! A chain's months as tables.
+//! The months of a chain of releases as tables.
 
 use super::month::{Nearest, Top, Well, WellMonth};
 use report::{Column, Table, TableCell};

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// The number of months within which no text should be repeated.
 const YEAR: u32 = 12;
 
-/// The last month in which each title, cast and sentence was used.
+/// The last month in which each title, each set of type names and each sentence was used.
 #[derive(Debug, Default)]
 pub(super) struct Words {
     titles: BTreeMap<String, u32>,

@@ -76,7 +76,7 @@ fn costs(cost: &Tally) -> Option<(String, String)> {
     };
     let rows: Vec<BarRow> = judges.into_iter().map(row).collect();
     let key = ["accepted", "refused", "game rejected"];
-    let caption = "Forward-model calls of each judge, by the fate of the judged candidates.";
+    let caption = "Forward-model calls of each judge, by the outcome for the judged candidates.";
     (!rows.is_empty()).then(|| (plots::bars("Cost of the judges", &key, &rows), caption.to_owned()))
 }
 

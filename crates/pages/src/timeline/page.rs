@@ -35,7 +35,8 @@ struct Page {
     /// The plots for individual players, with intervals.
     panels: Vec<Panel>,
     difficulties: String,
-    /// The drift plot. Empty if no anchor has played.
+    /// The plot of the additional difficulty for readers (players that see only prompts). Empty if no anchor (an
+    /// unchanging reader) has played.
     drift: String,
     correlation: String,
     tables: Vec<Shown>,
@@ -54,7 +55,7 @@ pub(super) fn render(timeline: &Timeline, tables: &[Table]) -> Result<String, Pa
     let shown = |player: &&TimelinePlayer| player.ability.months.iter().any(|month| month.ability.is_some());
     let players = timeline.players.iter().filter(shown).collect_vec();
     let range = range(&players);
-    // The lines of players placed on the scale are drawn over the lines of the examinees that define it.
+    // The lines of players placed on the scale are drawn over the lines of the reference players that define it.
     let mut lines = players
         .iter()
         .filter(|one| one.is_examinee)

@@ -68,7 +68,8 @@ impl Animation {
     ///
     /// # Errors
     ///
-    /// Returns an error if the image's size differs from the first specimen's size.
+    /// Returns an error if the image's size differs from the size of the first specimen (the first example image that
+    /// was given).
     pub fn add(&mut self, picture: &Picture) -> Result<(), RenderError> {
         let image = self.painter.paint(picture)?;
         let (width, height) = (usize::from(self.size.0), usize::from(self.size.1));
@@ -136,12 +137,13 @@ impl Animation {
     }
 }
 
-/// Returns the palette: first the exact tile colours, then blends by their number of pixels in the specimens.
-/// Ties are broken by colour.
+/// Returns the palette: first the exact tile colours, then blends by their number of pixels in the specimens (the given
+/// example images). Ties are broken by colour.
 fn palette(specimens: &[Picture], painter: &mut Painter) -> Result<Vec<Colour>, RenderError> {
     let shapes = specimens.iter().flat_map(Picture::tiles).flat_map(|tile| &tile.shapes);
     let mut palette: Vec<Colour> = shapes.map(|shape| shape.colour).collect();
-    // The specimens lack the background colours of outcomes, because none of them shows the end of an episode.
+    // The specimens (the given example images) lack the background colours of outcomes, because none of them shows the
+    // end of an episode.
     palette.extend(caption::ENDINGS.map(|(_, colour)| colour));
     palette.sort_unstable();
     palette.dedup();

@@ -52,8 +52,8 @@ const PEOPLE: [&str; 19] = [
     "porter",
 ];
 
-/// The figures that are replaced by an open door in the state `open`. Other sprites that can be open get a mark
-/// instead.
+/// The figures that are replaced by an open door in the state `open`. Other sprites that can be open get a sign for the
+/// state instead.
 const DOORS: [&str; 11] = [
     "door",
     "gate",
@@ -74,7 +74,7 @@ const SHORTEST_END: usize = 4;
 /// A tile's drawing, without its colour and details.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Form {
-    /// The drawing of a glyph.
+    /// The drawing of a glyph, which is the symbol for a kind of sprite.
     Glyph(Glyph),
     /// The figure on the line with this index in the table of figures.
     Figure(u16),
@@ -124,7 +124,7 @@ pub(crate) struct Figure {
     pub(crate) is_dangerous: bool,
     pub(crate) turns: bool,
     is_mark: bool,
-    /// The glyph whose drawing the figure uses, if any.
+    /// The glyph (the symbol for a kind of sprite) whose drawing the figure uses, if any.
     glyph: Option<Glyph>,
     pub(crate) parts: Vec<Part>,
 }
@@ -145,7 +145,7 @@ static WORDS: LazyLock<BTreeMap<&'static str, u16>> = LazyLock::new(|| {
 });
 
 impl Form {
-    /// Returns the figure, or `None` if the form is the drawing of a glyph.
+    /// Returns the figure, or `None` if the form is the drawing of a glyph (the symbol for a kind of sprite).
     pub(crate) fn figure(self) -> Option<&'static Figure> {
         match self {
             Form::Glyph(_) => None,
@@ -153,7 +153,7 @@ impl Form {
         }
     }
 
-    /// Returns all figures except marks, in table order.
+    /// Returns all figures except marks (signs for states), in table order.
     pub fn figures() -> impl Iterator<Item = Form> {
         let own = |(figure, at): (&Figure, u16)| {
             (!figure.is_mark && figure.glyph.is_none()).then_some(Form::Figure(at))
@@ -205,7 +205,7 @@ impl Form {
     }
 }
 
-/// Returns the parts of a mark.
+/// Returns the parts of a mark, which is the sign for a state.
 pub(crate) fn mark(at: u16) -> &'static [Part] {
     &TABLE[usize::from(at)].parts
 }
@@ -235,8 +235,8 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the hint given by the name of a type without `img=`. Returns `None` if the glyph from the
-    /// rules shows a direction, as those of portals and signs do, because a noun cannot express a direction.
+    /// Returns the hint given by the name of a type without `img=`. Returns `None` if the glyph (the symbol chosen from
+    /// the rules) shows a direction, as the glyphs of portals and signs do, because a noun cannot express a direction.
     pub(crate) fn of_name(name: &'a str, glyph: Glyph) -> Option<Hint<'a>> {
         use Glyph as G;
         let shows_way = matches!(glyph, G::Portal | G::PortalExit | G::Pointer | G::Sign | G::Conveyor);
@@ -251,13 +251,14 @@ impl<'a> Hint<'a> {
         (!shows_way && is_apt).then_some(hint)
     }
 
-    /// Returns the form for a type whose rules suggest `glyph`.
+    /// Returns the form (figure or glyph) for a type whose rules suggest the symbol `glyph`.
     pub(crate) fn form(self, glyph: Glyph) -> Form {
         let drawn = Form::Glyph(glyph);
         let noun = || noun(self.noun).map(Form::of_entry);
         let is_wall = |form: &Form| form.figure().is_some_and(|figure| figure.is_wall);
         match (self.role, glyph) {
-            // An avatar that is an animal looks like that animal. A person gets the figure of the glyph.
+            // An avatar that is an animal looks like that animal. A person gets the figure of the symbol chosen from
+            // the rules.
             (_, Glyph::Avatar) => noun().filter(|form| form.has_face() && !form.is_person()).unwrap_or(drawn),
             (_, Glyph::Craft) | (None, Glyph::Floor) => drawn,
             (Some("floor"), _) => Form::Glyph(Glyph::Floor),
@@ -272,15 +273,16 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the figure for the type's state. A prize keeps its own figure and gets a mark instead, because a
-    /// fallen prize does not look like a fallen bridge. Open objects other than doors are treated in the same way.
+    /// Returns the figure for the type's state. A prize keeps its own figure and gets a sign for the state instead,
+    /// because a fallen prize does not look like a fallen bridge. Open objects other than doors are treated in the same
+    /// way.
     fn state(self) -> Option<u16> {
         let is_door = || noun(self.noun).is_none_or(|at| DOORS.contains(&TABLE[usize::from(at)].name));
         let adjective = self.adjective.filter(|_| self.role != Some("prize"))?;
         if adjective == "open" && !is_door() { None } else { named(".", adjective) }
     }
 
-    /// Returns the mark for the type's state.
+    /// Returns the mark (the sign) for the type's state.
     pub(crate) fn mark(self) -> Option<u16> {
         let adjective = self.adjective?;
         if self.state().is_some() {

@@ -1,4 +1,4 @@
-//! The glyphs of tiles, one for each kind of sprite that a player must be able to distinguish.
+//! The glyphs (symbols) of tiles, one for each kind of sprite that a player must be able to distinguish.
 
 use super::art::Art;
 use super::colour;
@@ -11,7 +11,7 @@ use engine::{Analysis, SpriteClass, SpriteType};
 /// Declares each glyph in one place, with its variant, form, meaning, colour, terminal symbols and drawing.
 macro_rules! glyphs {
     ($($name:ident, $form:literal, $meaning:literal, $colour:ident, $unicode:literal, $ascii:literal, $draw:path;)*) => {
-        /// A tile's glyph.
+        /// A tile's glyph: the symbol for a kind of sprite that a player must be able to distinguish.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Glyph { $(#[doc = $meaning] $name),* }
 
@@ -98,8 +98,8 @@ glyphs! {
 }
 
 impl Glyph {
-    /// Chooses the glyph of a sprite type, first by its role, and then by its movement and its purpose. A type gets
-    /// no star if it cannot contribute to a win.
+    /// Chooses the glyph (symbol) of a sprite type, first by its role, and then by its movement and its purpose. A type
+    /// gets no star if it cannot contribute to a win.
     pub fn of(analysis: &Analysis, stype: SpriteType) -> Glyph {
         let glyph = Glyph::by_role(analysis, stype);
         let plain = match glyph {
@@ -180,8 +180,8 @@ impl Glyph {
         }
     }
 
-    /// Returns the glyph's number of variants. Variants distinguish types with the same glyph by more than
-    /// colour.
+    /// Returns the number of variants of the glyph (symbol). Variants distinguish types with the same glyph by more
+    /// than colour.
     pub(crate) fn variants(self) -> usize {
         match self {
             Glyph::Enemy | Glyph::Gem | Glyph::Key | Glyph::Gate => 4,
@@ -260,8 +260,8 @@ pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<Sp
     })
 }
 
-/// Returns the glyph for a type that gives a key. It is a button if touching the type is enough, coins if the avatar
-/// can hold many, and a key otherwise.
+/// Returns the glyph (symbol) for a type that gives a key. It is a button if touching the type is enough, coins if the
+/// avatar can hold many, and a key otherwise.
 fn key(analysis: &Analysis, stype: SpriteType) -> Glyph {
     let many = |resource: SpriteType| {
         analysis.resources().iter().any(|known| known.stype == resource && known.limit > 2)

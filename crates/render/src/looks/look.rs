@@ -1,4 +1,4 @@
-//! The looks of a game's sprite types.
+//! The looks of a game's sprite types. A look determines how a type is drawn: shape, colour and letter.
 
 use super::colour::{Colour, INK, PAPER};
 use super::figure::{Form, Hint, Mood};
@@ -11,7 +11,7 @@ use engine::analysis::{EffectSummary, Key};
 use engine::{Analysis, Game, SpriteType};
 use std::collections::BTreeMap;
 
-/// The squared distance below which two colours are too similar to distinguish types with the same glyph.
+/// The squared distance below which two colours are too similar to distinguish types with the same glyph (symbol).
 const ALIKE: u32 = 3000;
 /// The maximum number of dots on a tile.
 const MAX_PIPS: u8 = 4;
@@ -19,24 +19,25 @@ const MAX_PIPS: u8 = 4;
 /// The look of a sprite type: everything that determines its tile, except the orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Look {
-    /// The glyph according to the rules, which determines the type's meaning in legends.
+    /// The glyph (symbol) according to the rules, which determines the type's meaning in legends.
     pub glyph: Glyph,
-    /// The shape that is drawn: a figure if the game specifies an image, and the glyph otherwise.
+    /// The shape that is drawn: a figure if the game specifies an image, and the symbol chosen from the rules (the
+    /// glyph) otherwise.
     pub form: Form,
-    /// The mark for the type's state, as an index into the table of figures.
+    /// The sign for the type's state, as an index into the table of figures.
     pub(crate) mark: Option<u16>,
     /// The face's expression, if the form has a face.
     pub mood: Mood,
     /// The main colour: the colour that the game specifies, or the glyph's default.
     pub colour: Colour,
-    /// The variant of the glyph, from 0. A key and the gates that it opens have the same variant.
+    /// The variant of the glyph (symbol), from 0. A key and the gates that it opens have the same variant.
     pub variant: u8,
-    /// The number of dots that distinguish types with the same glyph and colour.
+    /// The number of dots that distinguish types with the same glyph (symbol) and colour.
     pub pips: u8,
 }
 
 impl Look {
-    /// Returns the look of a glyph in a game that specifies no colour and has only one type with this glyph.
+    /// Returns the look of a glyph (symbol) in a game that specifies no colour and has only one type with this glyph.
     pub fn plain(glyph: Glyph) -> Look {
         Look {
             glyph,
@@ -56,7 +57,7 @@ impl Look {
     /// drawing.
     pub fn is_like(self, other: Look) -> bool {
         let drawing = |look: Look| (look.form, look.mark, look.mood, look.variant, look.pips);
-        // Figures show less of the type's colour than glyphs do.
+        // Figures (drawings of nouns) show less of the type's colour than glyphs (symbols) do.
         let alike = if self.form.figure().is_some() { 3 * ALIKE } else { ALIKE };
         drawing(self) == drawing(other)
             && (!self.form.is_coloured() || self.colour.distance(other.colour) < alike)
@@ -84,8 +85,8 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// Computes the looks for an analysed game, with the images that the game specifies or that its types'
-    /// names suggest. Cost: O(types²).
+    /// Computes the looks (shapes, colours and letters of types) for an analysed game, with the images that the game
+    /// specifies or that its types' names suggest. Cost: O(types²).
     pub fn of(analysis: &Analysis) -> Looks {
         let named = pictures(analysis.game());
         let by_name = |stype: SpriteType, glyph: Glyph| match named.get(&stype) {
@@ -100,8 +101,8 @@ impl Looks {
         Looks { meanings, ..looks }
     }
 
-    /// Computes the looks that follow from the rules alone, with the meanings of the glyphs. Ignores the
-    /// images that the game specifies. Cost: O(types²).
+    /// Computes the looks (shapes, colours and letters of types) that follow from the rules alone, with the meanings of
+    /// the symbols. Ignores the images that the game specifies. Cost: O(types²).
     pub fn of_rules(analysis: &Analysis) -> Looks {
         Looks::with_hints(analysis, |_, _| None)
     }
@@ -115,7 +116,7 @@ impl Looks {
         let visible: Vec<bool> = game.sprite_types().map(|stype| !analysis.facts(stype).hidden).collect();
         let glyphs: Vec<Glyph> = game.sprite_types().map(|stype| Glyph::of(analysis, stype)).collect();
         let mut looks: Vec<Look> = glyphs.iter().map(|&glyph| Look::plain(glyph)).collect();
-        // Only looks that the game can show are counted, so that types that never occur do not use up
+        // Only the looks of types that can be visible in the game are counted, so that other types do not use up
         // variants. Gates come last, because a gate's look follows its key's look.
         let mut seen: Vec<Look> = Vec::new();
         let mut order: Vec<SpriteType> = game.sprite_types().collect();
@@ -171,7 +172,7 @@ impl Looks {
         self.looks[stype.index()]
     }
 
-    /// Returns a short description of a type: its glyph's meaning, and how the type moves.
+    /// Returns a short description of a type: the meaning of its glyph (symbol), and how the type moves.
     pub fn meaning(&self, stype: SpriteType) -> &str {
         &self.meanings[stype.index()]
     }
@@ -236,7 +237,7 @@ fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize
     looks.get(key.index()).filter(|look| look.glyph == Glyph::Key).map(|look| usize::from(look.variant))
 }
 
-/// Returns the colour of the nth type with the same glyph, for types without a colour of their own. The hue
+/// Returns the colour of the nth type with the same glyph (symbol), for types without a colour of their own. The hue
 /// stays the same.
 fn shifted(colour: Colour, nth: usize) -> Colour {
     match nth % 3 {

@@ -472,7 +472,7 @@ fn cover(analysis: &Analysis, stype: SpriteType) -> String {
     }
 }
 
-/// Returns a type's meaning in legends: the meaning of its glyph, and the effects of its rules.
+/// Returns a type's meaning in legends: the meaning of its glyph (symbol), and the effects of its rules.
 pub(crate) fn meaning(analysis: &Analysis, stype: SpriteType, form: Form) -> String {
     let glyph = Glyph::of(analysis, stype);
     let own = own_meaning(analysis, stype, form, glyph);

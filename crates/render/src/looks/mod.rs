@@ -1,4 +1,4 @@
-//! The looks of sprite types: shapes, figures, colours and letters.
+//! The looks of sprite types, which determine how each type is drawn: shapes, figures, colours and letters.
 
 pub(crate) mod art;
 pub(crate) mod colour;

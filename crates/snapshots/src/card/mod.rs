@@ -14,7 +14,7 @@ use std::fmt::Write;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReleaseCard {
-    /// The release's canary.
+    /// The release's canary: an identifier that shows whether a text corpus contains the release.
     pub canary: String,
     /// The number of games.
     pub games: u64,
@@ -25,8 +25,8 @@ pub struct ReleaseCard {
     /// The requested and achieved counts. For difficulties, the counts are levels as measured during selection, and
     /// may be off by one. For quotas, the counts are games.
     pub planned: Vec<Bin>,
-    /// The number of levels of each difficulty, as measured by the ladders on the games' cards; empty if difficulty
-    /// was not measured.
+    /// The number of levels of each difficulty, as measured by the reference players on the games' cards; empty if
+    /// difficulty was not measured.
     pub difficulty: BTreeMap<String, u64>,
     /// The number of levels of each tier, if tiers were measured.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -37,8 +37,8 @@ pub struct ReleaseCard {
     pub avatars: BTreeMap<String, u64>,
     /// The number of games per origin, which is the name of a generator or `corpus`.
     pub generators: BTreeMap<String, u64>,
-    /// The results of the ladder's players (players of increasing strength) across all games; empty if no ladder was
-    /// played.
+    /// The results of the ladder, which is a list of reference players of increasing strength, across all games. Empty
+    /// if no ladder was played.
     pub ladder: Vec<Rung>,
     /// The novelty of the games.
     pub novelty: Novelty,
@@ -52,7 +52,7 @@ pub struct ReleaseCard {
     pub tally: Tally,
 }
 
-/// One ladder player's results.
+/// The results of one reference player on the ladder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rung {
@@ -61,7 +61,8 @@ pub struct Rung {
     /// The smallest difference in win rate that can be detected between two releases of this size, at the 5% level
     /// with 80% power.
     pub detectable: Option<f64>,
-    /// The smallest difference in win rate that can be detected between two releases of `MONTH` such games each.
+    /// The smallest difference in win rate that can be detected between two releases with a month's usual number of
+    /// games each (`MONTH`).
     pub detectable_month: Option<f64>,
 }
 
@@ -145,8 +146,8 @@ pub(crate) fn is_new(card: &Card) -> bool {
 }
 
 impl ReleaseCard {
-    /// Formats the card as Markdown for human readers, with planned and achieved figures and the ladder's
-    /// results.
+    /// Formats the card as Markdown for human readers, with planned and achieved numbers and the results of the
+    /// reference players.
     pub(crate) fn in_words(&self) -> String {
         let mut text = String::new();
         if !self.planned.is_empty() {

@@ -1,4 +1,4 @@
-//! The win rates of the ladder's players over a whole release, and the differences between two releases.
+//! The win rates of the ladder's reference players over a whole release, and the differences between two releases.
 //!
 //! A level's rate is the fraction of its episodes that were won, and all levels have the same weight. Levels of the
 //! same game are correlated, so the intervals use games as the sampling unit ([`statistics::share_over_games`]). The
@@ -137,7 +137,7 @@ fn apart(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Returns each ladder player's win rate over some games. The players on the ladder come first, from weakest to
+/// Returns the win rate of each reference player over some games. The players on the ladder come first, from weakest to
 /// strongest in the first ladder's order, followed by the held-out players. Levels without a ladder are skipped.
 pub fn rates(cards: &[Card]) -> Vec<RungRate> {
     let ladders = || cards.iter().flat_map(|card| &card.levels).filter_map(|level| level.ladder.as_ref());

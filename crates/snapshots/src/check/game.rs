@@ -33,7 +33,7 @@ pub(super) struct GameCheck {
     pub(super) levels: usize,
     /// The number of witnesses that replayed to a win.
     pub(super) replayed: usize,
-    /// In a sealed release, the paths of the game's withheld witnesses.
+    /// The paths of the game's witnesses that are withheld until the release is revealed.
     pub(super) held: Vec<String>,
     /// The card, if it is valid.
     pub(super) card: Option<Card>,

@@ -71,7 +71,7 @@ pub struct Verification {
     /// reported as a problem.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exceeded: Option<u64>,
-    /// The number of papers stored with the release, which the root does not cover.
+    /// The number of papers (documents such as the licence) stored with the release, which the root does not cover.
     pub papers: usize,
     /// The names of files that other programs left in the release folder. The content of such files is not read.
     pub ignored: Vec<String>,
@@ -266,8 +266,8 @@ fn check_known(manifest: &Manifest, problems: &mut Vec<String>) {
     }
 }
 
-/// Checks that a sealed release commits to its secret, to a witness of every level, and to no other withheld
-/// file.
+/// Checks the withheld files of a sealed release: the release must commit to its secret, to a witness of every level,
+/// and to no other withheld file.
 fn check_held(manifest: &Manifest, games: &[GameCheck], problems: &mut Vec<String>) {
     if manifest.kind != ReleaseKind::Sealed {
         return;

@@ -1,10 +1,10 @@
-//! The lists of a sealed release's withheld files, and the commitments to those lists.
+//! The lists of the files that a sealed release withholds, and the commitments to those lists.
 //!
-//! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files,
-//! because anyone could check a guessed text against its digest. Instead, its manifest contains the digests
-//! of two lists, which are also withheld. A list begins with a salt derived from the secret, so nobody can
-//! guess it. It contains the path, size and digest of every file in its part, so its digest commits to all of
-//! these files. The lists' digests are leaves of the tree.
+//! A sealed release publishes neither the paths, nor the sizes, nor the plain digests of its withheld files, because
+//! anyone could check a guessed text against its digest. Instead, its manifest contains the digests of two lists, which
+//! are also withheld. A list begins with a salt derived from the secret, so nobody can guess it. It contains the path,
+//! size and digest of every file in its part, so its digest commits to all of these files. The lists' digests are
+//! leaves of the tree.
 
 use crate::error::SnapshotError;
 use crate::format::layout::HELD;

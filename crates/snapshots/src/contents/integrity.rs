@@ -96,8 +96,8 @@ pub(crate) fn manifest_problems(manifest: &Manifest, bytes: &[u8]) -> Result<Vec
     Ok(problems)
 }
 
-/// Reads the lists of withheld files that exist, and returns the problems with them. The list of the wins selected by
-/// coin tosses may exist without the list of all other files, but not vice versa.
+/// Reads the lists of withheld files that exist, and returns the problems with them. One list contains the wins that
+/// the memory tests publish early. It may exist without the list of all other files, but not vice versa.
 fn list_problems(
     root: &Path,
     manifest: &mut Manifest,
@@ -158,8 +158,8 @@ fn file_problems(root: &Path, manifest: &Manifest, listing: Listing) -> Result<V
         };
         problems.extend(flaw.map(|flaw| Problem { path: entry.path.clone(), flaw }));
     }
-    // Before the reveal, a sealed release withholds either all of its witnesses or none. If coin tosses have selected
-    // the wins to publish, those wins may already be present. Hidden files are not expected.
+    // Before the reveal, a sealed release withholds either all of its witnesses or none. The wins that the memory tests
+    // publish early may already be present. Hidden files are not expected.
     let is_listed = manifest.kind == ReleaseKind::Sealed && manifest.withheld.is_none();
     let is_held = |path: &str| is_listed && path.starts_with(HELD);
     let stays = |path: &str| is_held(path) && !is_solution(path);
@@ -322,7 +322,8 @@ mod tests {
         check(write("games/x/a b", b""), &[("games/x/a b", spaced)]);
     }
 
-    /// Papers, and files that other programs leave outside the tree, are listed and do not count as tampering.
+    /// Papers (documents such as the licence), and files that other programs leave outside the tree, are listed and do
+    /// not count as tampering.
     #[test]
     fn files_outside_the_tree() {
         let release = release();
@@ -338,7 +339,7 @@ mod tests {
             ["papers/LICENSE"]
         );
         assert_eq!(beside.ignored, [".DS_Store", ".git"]);
-        // The root does not protect papers, even if the manifest lists them.
+        // The root does not protect papers (documents such as the licence), even if the manifest lists them.
         let mut files = FILES.to_vec();
         files.push(("papers/LICENSE", b"MIT"));
         let text = example(&files).to_bytes().expect("sound");

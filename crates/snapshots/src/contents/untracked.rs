@@ -1,14 +1,15 @@
-//! Files in a release folder that its manifest does not list: papers, and files left by other programs.
+//! Files in a release folder that its manifest does not list: papers (documents such as the licence), and files left by
+//! other programs.
 
 use crate::error::SnapshotError;
 use crate::format::folder::{self, Entry, Limits, Listing};
 use crate::format::problem::{Flaw, Problem};
 use std::path::Path;
 
-/// The folder for papers, at the top of a release.
+/// The folder for papers (documents such as the licence), at the top of a release.
 pub const PAPERS: &str = "papers/";
 
-/// The limits for a release's papers: 1000 files of at most 64 MiB, 256 MiB in total.
+/// The limits for a release's papers (documents such as the licence): 1000 files of at most 64 MiB, 256 MiB in total.
 pub const PAPERS_LIMITS: Limits = Limits { files: 1000, file_bytes: 64 << 20, total_bytes: 256 << 20 };
 
 /// The names of files and folders that version control, file managers and downloads leave at the top of a folder.
@@ -31,7 +32,7 @@ pub(crate) const IGNORED_NAMES: [&str; 12] = [
 /// The files in a release folder that its manifest does not list.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Untracked {
-    /// The papers, by path.
+    /// The papers (documents such as the licence), by path.
     pub papers: Vec<Entry>,
     /// The names of files left by other programs at the top of the release. The content of such files is not
     /// read.

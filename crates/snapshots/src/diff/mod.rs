@@ -61,7 +61,7 @@ pub struct Diff {
     pub shifts: Vec<Shift>,
     /// The changes in the distributions of numbers.
     pub numbers: Vec<NumberShift>,
-    /// The change in each ladder player's results: later minus earlier.
+    /// The change in the results of each reference player on the ladder: later minus earlier.
     pub rungs: Vec<RungDifference>,
     /// The change in each reference result that both releases contain; empty if the recipes request no
     /// reference results.

@@ -57,7 +57,7 @@ impl Unmeasured {
         *self == Unmeasured::default()
     }
 
-    /// Counts the levels without ladder results.
+    /// Counts the levels without results of reference players.
     pub(super) fn of(before: &[Compared<'_>], after: &[Compared<'_>]) -> Unmeasured {
         let count = |side: &[Compared<'_>]| {
             let levels = side.iter().flat_map(|game| &game.released.card.levels);

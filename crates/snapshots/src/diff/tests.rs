@@ -7,7 +7,7 @@ use crate::released::ReleasedLevel;
 use engine::Game;
 use forge::card::Card;
 
-/// Returns a game about collecting gems. `names` contains the names of the gem and the foe, and the ground's
+/// Returns a game about collecting gems. `names` contains the names of the gem and the enemy, and the ground's
 /// character.
 fn source(names: [&str; 3], foe: &str) -> String {
     let [gem, imp, ground] = names;

@@ -1,4 +1,4 @@
-//! Drafts left by killed runs.
+//! Drafts (unfinished folders) left by killed runs.
 
 use std::fs;
 use std::io::{self, ErrorKind};

@@ -211,8 +211,8 @@ impl Draft {
         Ok(())
     }
 
-    /// Restricts all content to its owner, before and after publication, as shards of sealed releases
-    /// require. Must be called before the first file is written.
+    /// Restricts all content to its owner, before and after publication, as shards (separately minted parts) of sealed
+    /// releases require. Must be called before the first file is written.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.

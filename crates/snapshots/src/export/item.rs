@@ -1,4 +1,5 @@
-//! The source of a row in an export: a level with its game, either in the game's own theme or as a twin.
+//! The source of a row in an export: a level with its game, or with a twin of the game (the same rules with a different
+//! surface).
 
 use crate::format::manifest::Manifest;
 use crate::released::{ReleasedGame, ReleasedLevel};
@@ -9,7 +10,7 @@ use forge::card::{Card, LevelCard};
 use std::borrow::Cow;
 use validators::{GameForm, GameKind};
 
-/// A game as it is exported: in its own theme or as a twin.
+/// A game as it is exported: unchanged, or as a twin (the same rules with a different surface).
 pub(super) struct ExportedGame<'a> {
     pub(super) title: String,
     pub(super) description: String,
@@ -82,7 +83,7 @@ pub(super) struct Item<'a> {
     pub(super) exported: &'a ExportedGame<'a>,
     /// The level's number, from 0.
     pub(super) number: usize,
-    /// The exported twin; `None` for the game itself.
+    /// The kind of twin (surface change) that is exported; `None` for the game itself.
     pub(super) twin: Option<Twin>,
 }
 

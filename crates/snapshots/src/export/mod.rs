@@ -31,7 +31,7 @@ pub struct Exported {
     pub games: usize,
     /// The number of exported levels.
     pub levels: usize,
-    /// The folders of games that have no twin of the requested kind, with the reasons.
+    /// The folders of games that cannot be changed into the requested kind of twin, with the reasons.
     pub left_out: Vec<(String, TwinError)>,
 }
 
@@ -43,7 +43,7 @@ pub enum ExportError {
     #[cfg(feature = "parquet")]
     #[error("the table cannot be written as Parquet: use --format jsonl")]
     Parquet(#[from] parquet::errors::ParquetError),
-    /// No game has a twin of the requested kind.
+    /// No game can be changed into the requested kind of twin.
     #[error("no game of the release has this kind of twin: {}", .0.first().map_or_else(String::new, |(_, why)| why.to_string()))]
     NoTwin(Vec<(String, TwinError)>),
     /// Solutions were requested, but the release withholds them.

@@ -39,6 +39,6 @@ pub struct Export {
     pub format: Format,
     /// `true` to include a winning episode for each level.
     pub solutions: bool,
-    /// The twin to export; `None` for the games themselves.
+    /// The kind of twin (copy with a different surface) to export; `None` for the games themselves.
     pub twin: Option<Twin>,
 }

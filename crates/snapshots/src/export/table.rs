@@ -19,7 +19,8 @@ use std::sync::Arc;
 /// The author stated in the file. The text is fixed, so it does not depend on the library's version.
 const CREATED_BY: &str = "infinite-arcade";
 
-/// Formats the rows as a Parquet file, with the canary in its metadata.
+/// Formats the rows as a Parquet file. The file's metadata contain the canary, which shows whether a corpus contains
+/// the release.
 ///
 /// # Errors
 /// Returns an error if the library fails, which should not happen.

@@ -8,7 +8,7 @@ pub(crate) const README_FILE: &str = "README.md";
 /// The file that describes a whole release, for programs.
 pub const RELEASE_CARD_FILE: &str = "CARD.json";
 
-/// The withheld file that contains a sealed release's secret.
+/// The file that contains a sealed release's secret. It is withheld until the reveal.
 pub const SECRET_FILE: &str = "held/secret.json";
 /// The folder for the files of a sealed release that are withheld until the reveal.
 pub const HELD: &str = "held/";
@@ -21,10 +21,10 @@ pub(crate) fn witness_path(kind: ReleaseKind, game: &str, level: usize) -> Strin
     }
 }
 
-/// The folder for the withheld siblings of games.
+/// The folder for siblings, which are the renamed copies of games that are withheld for memory tests.
 pub(crate) const SIBLINGS: &str = "held/siblings/";
 
-/// Returns the path of a file in a game's withheld sibling. `game` is the name of the game's folder in
+/// Returns the path of a file in a game's withheld sibling (renamed copy). `game` is the name of the game's folder in
 /// `games`.
 pub(crate) fn sibling_path(game: &str, file: &str) -> String {
     format!("{SIBLINGS}{game}/{file}")
@@ -35,8 +35,7 @@ pub(crate) fn second_path(game: &str, level: usize) -> String {
     format!("{HELD}seconds/{game}/lvl{level}.json")
 }
 
-/// Returns `true` if a withheld file is a win that a coin toss selected for publication. Such wins can be revealed
-/// before the other withheld files.
+/// Returns `true` if a withheld file is one of the wins that the memory tests publish early.
 pub(crate) fn is_solution(path: &str) -> bool {
     path.strip_prefix(HELD).is_some_and(|file| file.split('/').count() == 2)
 }

@@ -2,8 +2,8 @@
 
 use crate::format::version::{CURRENT, MintedBy, VERSIONS, Version};
 
-/// The first generation whose releases have a `CARD.json`, a canary derived from the recipe, and a record of
-/// the previous releases' content in the recipe.
+/// The first generation whose releases have a `CARD.json`, a canary (identifier in text corpora) derived from the
+/// recipe, and a record of the previous releases' content in the recipe.
 pub(crate) const CARD_AND_CANARY_SINCE: u32 = 7;
 
 /// Returns the reason why no version of `arcade` can have minted a release with the given numbers; `None` if

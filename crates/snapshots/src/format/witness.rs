@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Witness {
-    /// The release's canary.
+    /// The release's canary: an identifier that shows whether a text corpus contains the release.
     pub canary: String,
     /// The episode, which replays to a win.
     pub episode: Episode,

@@ -51,7 +51,7 @@ pub enum AncestryError {
 pub(crate) struct Holdings {
     /// The rules of the release's generated games, with all names removed, in the order of the manifest's items.
     games: Vec<String>,
-    /// The mechanics, endings and couplings of the release's invented games.
+    /// The use counts of the mechanics, endings and merged pairs of ports in the release's invented games.
     census: Census,
     /// The digests of the generated games' forms, each with the game's folder.
     pub(crate) forms: BTreeMap<Digest, String>,

@@ -1,4 +1,5 @@
-//! A release's `CARD.json`: planned and achieved figures, the ladder's results, novelty, and composition.
+//! The file `CARD.json` of a release: planned and achieved numbers, the reference players' results, novelty, and
+//! composition.
 
 use super::Plan;
 use super::select::{Contender, bins};

@@ -1,5 +1,5 @@
-//! Converts generated games into a job's games by adding the tiers, the ladder results for publication, and the seed
-//! paths of the witnesses.
+//! Conversion of generated games into a job's games. It adds the tiers, the results of the reference players for
+//! publication, and the seed paths of the witnesses.
 
 use crate::sections::frozen::FrozenGame;
 use base::SeedPath;
@@ -8,8 +8,8 @@ use forge::games::MadeGame;
 use validators::{Case, CheckedCriteria, Demand, shorter_win};
 
 impl FrozenGame {
-    /// Converts a generated game. `criteria` are the criteria by which it was judged. If they include a ladder, the
-    /// ladder's players play again with fresh seeds, because the episodes that led to a level's acceptance are biased
+    /// Converts a generated game. `criteria` are the criteria by which it was judged. If they include a ladder, its
+    /// reference players play again with fresh seeds, because the episodes that led to a level's acceptance are biased
     /// by luck. If `measured` is set, the tier of every level without a tier is measured.
     pub(super) fn of(mut made: MadeGame, criteria: &CheckedCriteria, measured: bool) -> FrozenGame {
         let ladders = made.card.levels.iter().filter_map(|level| level.ladder.as_ref());
@@ -27,8 +27,8 @@ impl FrozenGame {
     }
 }
 
-/// Measures the tier of every level without a tier. In stochastic games, a shorter win found during the measurement
-/// replaces the witness.
+/// Measures the tier (difficulty class) of every level without a tier. In stochastic games, a shorter win found during
+/// the measurement replaces the witness.
 fn measure(made: &mut MadeGame) {
     let analysis = Analysis::of(&made.game);
     let won = made.levels.iter().zip(&mut made.witnesses);
@@ -48,7 +48,7 @@ fn measure(made: &mut MadeGame) {
     }
 }
 
-/// Replaces the ladders on a game's card with new ladders, played with fresh seeds.
+/// Replaces the reference players' results on a game's card with new results from fresh seeds.
 fn climb_again(made: &mut MadeGame, seed: &SeedPath, criteria: &CheckedCriteria) {
     let players = criteria.players();
     let analysis = Analysis::of(&made.game);

@@ -49,7 +49,7 @@ pub struct Minted {
 pub enum Remark {
     /// There are rule sets for at most the given number of new games, which is hardly more than the recipe requests.
     FewRules(usize),
-    /// The shard has no jobs.
+    /// The shard (a separately minted part of a release) has no jobs.
     EmptyShard,
 }
 
@@ -76,7 +76,7 @@ pub trait Progress: Sync {
     fn begin(&self, _jobs: usize, _made: usize) {}
     /// Receives the name and the games of a job that has finished.
     fn made(&self, _name: &str, _games: &[FrozenGame]) {}
-    /// Marks the end of all jobs. The release or the shard is written afterwards.
+    /// Marks the end of all jobs. The release or the shard (a part of it) is written afterwards.
     fn finish(&self) {}
 }
 
@@ -303,7 +303,7 @@ mod tests {
             assert_eq!(games.len(), 1, "{job:?}");
             check(plan.seed, &games[0]);
         }
-        // If tiers are measured, shorter wins replace the witnesses of stochastic levels.
+        // If tiers (difficulty classes) are measured, shorter wins replace the witnesses of stochastic levels.
         let moths = FETCH
             .replace("avatar > MovingAvatar", "moth > RandomNPC color=GRAY\n        avatar > MovingAvatar")
             .replace("A > floor avatar", "m > floor moth\n        A > floor avatar")

@@ -30,7 +30,7 @@ use validators::{Difficulty, GameForm, Tier};
 pub(super) enum Part {
     /// New levels for corpus games.
     Corpus,
-    /// New games from kernels.
+    /// New games from kernels (hand-written designs).
     Generated,
     /// Invented games.
     Invented,
@@ -83,13 +83,14 @@ pub(super) struct Contender {
     pub(super) at: usize,
     part: Part,
     pub(super) is_new: bool,
-    /// The titles and casts of the game and its sibling. Selection treats the game and its sibling identically, so
-    /// the selected games reveal nothing about the secret coin toss that decides which of the two is published.
+    /// The titles and type names of the game and of its sibling (the withheld renamed copy). Selection treats both
+    /// identically, so the selected games reveal nothing about the secret random choice of which of the two is
+    /// published.
     titles: Vec<String>,
     casts: Vec<Cast>,
     /// The difficulties of the game's levels.
     pub(super) difficulties: Vec<Difficulty>,
-    /// The tiers of the game's levels, if tiers were measured.
+    /// The tiers (difficulty classes) of the game's levels, if tiers were measured.
     tiers: Vec<Tier>,
     pub(super) goal: GoalKind,
     pub(super) avatar: AvatarKind,
@@ -102,8 +103,8 @@ pub(super) struct Contender {
 }
 
 impl Contender {
-    /// Creates the contender for a game, identified by its job's index and its index in the job's result;
-    /// `None` if the game's rules or levels do not load.
+    /// Creates the contender (candidate for selection) for a game, identified by its job's index and its index in the
+    /// job's result; `None` if the game's rules or levels do not load.
     pub(super) fn of(part: Part, (job, at): (usize, usize), frozen: &FrozenGame) -> Option<Contender> {
         let game = Game::from_source(&frozen.text).ok()?;
         let analysis = Analysis::of(&game);
@@ -167,7 +168,7 @@ impl Plan<'_> {
     }
 }
 
-/// Returns the requested number of levels per tier; empty if the recipe does not request tiers.
+/// Returns the requested number of levels per tier (difficulty class); empty if the recipe does not request tiers.
 fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
     if recipe.tiers.is_empty() {
         return Vec::new();
@@ -250,17 +251,18 @@ pub(super) fn select(
     Err(MintError::Uneven { candidates: fit.len(), missed, advice })
 }
 
-/// The contenders that may be selected together, and the reasons for excluding the others.
+/// The contenders (candidates for selection) that may be selected together, and the reasons for excluding the others.
 struct Fit {
-    /// The indices of the contenders that may be selected together.
+    /// The indices of the contenders (candidates for selection) that may be selected together.
     fit: Vec<usize>,
-    /// The reasons why other contenders were excluded, with their counts, by part.
+    /// The reasons why other contenders (candidates for selection) were excluded, with their counts, by part.
     dropped: BTreeMap<Part, BTreeMap<String, u64>>,
 }
 
 impl Fit {
-    /// Excludes contenders that occur in a previous release or contain the same level twice. A new contender is also
-    /// excluded if it is near an earlier new contender, or shares its idea, title or cast.
+    /// Excludes contenders (candidates for selection) that occur in a previous release or contain the same level twice.
+    /// A new contender is also excluded if it is near an earlier new contender, or shares its idea, its title or most
+    /// of its type names.
     fn of(plan: &Plan<'_>, contenders: &[Contender]) -> Fit {
         let mut fit: Vec<usize> = Vec::new();
         let mut dropped: BTreeMap<Part, BTreeMap<String, u64>> = BTreeMap::new();
@@ -336,7 +338,8 @@ struct Choice<'a> {
 }
 
 impl<'a> Choice<'a> {
-    /// Creates the initial selection, by taking the first contenders of each part in a given order.
+    /// Creates the initial selection, by taking the first contenders (candidates for selection) of each part in a given
+    /// order.
     fn of(
         recipe: &'a Recipe,
         contenders: &'a [Contender],

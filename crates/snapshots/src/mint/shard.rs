@@ -469,7 +469,7 @@ mod tests {
         }
     }
 
-    /// Withheld siblings and witnesses are also checked.
+    /// Withheld renamed copies (siblings) and withheld witnesses are also checked.
     #[test]
     fn forged_pairs_are_not_merged() {
         let open = tests::recipe("a");

@@ -156,8 +156,8 @@ impl Prepared<'_> {
 }
 
 impl Shards {
-    /// Merges the shards. The result is bit-identical to a release minted in one piece. `secret` is the secret of a
-    /// sealed release.
+    /// Merges the shards (separately minted parts). The result is bit-identical to a release minted in one piece.
+    /// `secret` is the secret of a sealed release.
     ///
     /// Cost: one [`Shards::check`], on all threads of the current rayon pool.
     ///
@@ -235,8 +235,8 @@ fn publish(
 }
 
 impl Minted {
-    /// Completes a draft that contains the release files by adding the manifest and the papers. `place` maps
-    /// the paths of the added files.
+    /// Completes a draft that contains the release files by adding the manifest and the papers (documents such as the
+    /// licence). `place` maps the paths of the added files.
     ///
     /// # Errors
     /// Returns an error if a file system operation fails.

@@ -142,8 +142,7 @@ impl Regeneration {
     pub fn calls_per_level(&self) -> u64 {
         let of = |criteria: &Criteria| {
             let play = |decision: u64| decision.saturating_mul(criteria.most_ticks as u64);
-            // Every player on a ladder may play one round of episodes of the maximum length before all budgets are
-            // spent.
+            // Every reference player may play one round of episodes of the maximum length before all budgets are spent.
             let names = criteria.ladder.iter().chain(&criteria.held_out);
             let names = names.filter(|_| criteria.includes(Criterion::Skill));
             let budgets = names.filter_map(|name| name.rsplit(':').next()?.parse::<u64>().ok());

@@ -26,7 +26,7 @@ pub enum RevealError {
     /// The release is open, or has no commitment.
     #[error("`{0}` is not sealed: there is nothing to reveal")]
     Open(String),
-    /// The release has no wins that were selected by coin tosses.
+    /// The release does not contain two wins per level, so there are no wins for early publication.
     #[error(
         "`{0}` has no second wins, because its recipe has no `[memory]` with `witnesses`: its witnesses are \
          revealed with everything else, so omit --solutions"
@@ -40,15 +40,15 @@ pub enum RevealError {
     Snapshot(#[from] SnapshotError),
 }
 
-/// Merges the two parts of a sealed release (`public` and `held`) and the papers into a draft, and returns the
-/// manifest of the public part. The files must be exactly the files that this manifest's root covers. The secret must
-/// match the commitment, and the witnesses must have been played under that secret.
+/// Merges the two parts of a sealed release (`public` and `held`) and the papers (documents such as the licence) into a
+/// draft, and returns the manifest of the public part. The files must be exactly the files that this manifest's root
+/// covers. The secret must match the commitment, and the witnesses must have been played under that secret.
 ///
 /// Cost: one pass over the files, in chunks, and memory proportional to the manifest.
 ///
 /// # Errors
-/// Returns an error if a file is missing, changed or unlisted, if the seed or the nonce does not match the
-/// commitment, or if a file system operation fails.
+/// Returns an error if a file is missing, changed or unlisted, if the seed or the nonce does not match the commitment,
+/// or if a file system operation fails.
 pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result<Manifest, RevealError> {
     let integrity = check_integrity(public)?;
     let mut manifest = integrity.manifest;
@@ -120,8 +120,8 @@ pub fn reveal(public: &Path, held: &Path, what: Reveal, draft: &Draft) -> Result
     Ok(manifest)
 }
 
-/// Returns `true` if a withheld file can be revealed early: the wins selected by coin tosses, and the list of these
-/// wins.
+/// Returns `true` if a withheld file can be revealed early: the wins selected at random for early publication, and the
+/// list of these wins.
 fn is_early(path: &str) -> bool {
     is_solution(path) || path == HeldPart::Solutions.list()
 }

@@ -21,7 +21,7 @@ pub struct Known {
     /// The canonical items (rules and level) of the previous corpus games.
     pub items: BTreeSet<Digest>,
     /// The number of previous games that use each mechanic (such as `mechanic/lock`), each ending, and each coupling
-    /// of ports.
+    /// (merged pair of ports).
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub patterns: BTreeMap<String, u32>,
 }
@@ -44,7 +44,7 @@ impl Known {
         self.games.iter().enumerate().map(form).collect()
     }
 
-    /// Counts the mechanics, endings and couplings of the games.
+    /// Counts the mechanics, endings and couplings (merged pairs of ports) of the games.
     pub(crate) fn census(&self) -> Census {
         Census::of(&self.patterns)
     }

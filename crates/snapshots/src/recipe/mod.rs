@@ -57,7 +57,7 @@ pub struct Recipe {
     /// New levels for corpus games.
     #[serde(default)]
     pub corpus: CorpusPart,
-    /// New games from kernels, with levels.
+    /// New games from kernels (hand-written designs), with levels.
     #[serde(default)]
     pub generated: GeneratedPart,
     /// Invented games.
@@ -72,7 +72,7 @@ pub struct Recipe {
     /// New puzzles in which the player carries parcels between carts in a yard.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub yards: Option<PuzzlePart>,
-    /// New puzzles about pushing things among strays (sprites that wander at random and kill).
+    /// New puzzles about pushing things among strays (deadly sprites that wander at random).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strays: Option<PuzzlePart>,
     /// The sizes of the boards.
@@ -81,13 +81,14 @@ pub struct Recipe {
     /// The fraction of all levels with each difficulty. If empty, any difficulty is accepted.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub difficulty: BTreeMap<Difficulty, f64>,
-    /// The fraction of all levels in each tier. If empty, tiers are not measured.
+    /// The fraction of all levels in each tier (difficulty class from 1 to 4). If empty, tiers are not measured.
     #[serde(default, skip_serializing_if = "Tiers::is_empty")]
     pub tiers: Tiers,
     /// The reference players, which never change. The release contains their results on each level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<MarksPart>,
-    /// The coin tosses for memory tests. Each toss decides between two renamings of a game or two wins of a level.
+    /// The secret random choices for memory tests. Each decides between two renamings of a game, or between two wins of
+    /// a level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryPart>,
     /// The quotas for kinds of games.

@@ -29,7 +29,7 @@ base::with_defaults! {
 }
 
 base::with_defaults! {
-    /// New games from kernels.
+    /// New games from kernels (hand-written designs).
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct GeneratedPart {
@@ -43,8 +43,8 @@ base::with_defaults! {
         pub level_tries: u32 = 12,
         /// The number of candidate games per selected game.
         pub candidates: f64 = 1.25,
-        /// The weights of the generation methods. Earlier versions searched for kernel games, but this version only
-        /// draws them, so weights other than `constructive` must be 0.
+        /// The weights of the generation methods. Earlier versions searched for games from kernels, but this version
+        /// only draws them, so weights other than `constructive` must be 0.
         pub mix: Mix = Mix::default(),
         /// The kinds of games; if empty, all kinds.
         #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -1,4 +1,4 @@
-//! The secrets of sealed releases. A release commits to its seed before minting, and reveals the seed later.
+//! The secrets of sealed releases. A sealed release commits to its seed before minting, and reveals the seed later.
 
 use crate::error::SnapshotError;
 use crate::format::folder;

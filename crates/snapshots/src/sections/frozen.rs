@@ -19,16 +19,17 @@ pub struct JobResult {
     pub tally: Tally,
 }
 
-/// A game's texts, without a release's canary.
+/// A generated game as it is stored in a release, but without the release's canary (its identifier in text corpora).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrozenGame {
     /// The rules, preceded by the title.
     pub text: String,
-    /// The game's card. Its ladders come from episodes that were used neither by the judges nor for selection.
+    /// The game's card. The reference players' results on the card come from episodes that were used neither by the
+    /// judges nor for selection.
     pub card: Card,
-    /// For each level, the difficulty that the judges measured, for use in selection; empty if no ladder was
-    /// played.
+    /// For each level, the difficulty that the judges measured, for use in selection; empty if no ladder of reference
+    /// players was played.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub difficulties: Vec<Difficulty>,
     /// The level texts.
@@ -40,18 +41,18 @@ pub struct FrozenGame {
     /// The reference players' wins on each level; empty if the recipe does not request reference players.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,
-    /// The sibling that a coin toss selected to be withheld, if the recipe requests siblings and the game has
-    /// one.
+    /// The game's sibling: a renamed copy that a secret random choice selected to be withheld. `None` if the recipe
+    /// does not request siblings, or if the game has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sibling: Option<Sibling>,
-    /// For each level, the win that a coin toss selected to be withheld, or `None` if there is no such win.
+    /// For each level, the win that a secret random choice selected to be withheld, or `None` if there is no such win.
     /// The list is empty if the recipe does not request second wins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub seconds: Vec<Option<SecondWin>>,
 }
 
 impl FrozenGame {
-    /// Returns the titles and rules of the game and of its sibling, if any.
+    /// Returns the titles and rules of the game and of its sibling (the withheld renamed copy), if any.
     pub(crate) fn guises(&self) -> impl Iterator<Item = (&str, &str)> {
         let sibling = self.sibling.iter().map(|sibling| (&*sibling.title, &*sibling.text));
         std::iter::once((&*self.card.title, &*self.text)).chain(sibling)

@@ -100,7 +100,7 @@ pub(crate) trait Section: Sync {
     /// Adds the values that determine the results of jobs to the content covered by the plan's digest.
     fn decide(&self, recipe: &Recipe, decisive: &mut Map<String, Value>);
 
-    /// Returns `true` if each level needs a tier.
+    /// Returns `true` if each level needs a tier (difficulty class).
     fn needs_tiers(&self, _recipe: &Recipe) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! The mirrored twin, in which the board and every direction in the rules are reflected left to right.
+//! The mirrored twin of a game, in which the board and every direction in the rules are reflected left to right.
 //!
 //! A game without a mirror image is rejected with a reason. Possible reasons are sprites whose class prefers a side,
 //! sprites that are not one cell wide, and an outcome that depends on the order in which the sprites in a row are

@@ -24,7 +24,8 @@ base::named_enum! {
         Mirrored = "mirrored",
         /// The game has a different theme.
         Renamed = "renamed",
-        /// The renaming that a coin toss selected to be withheld until the reveal ([`crate::sections::memory`]).
+        /// The renamed copy that is withheld until the reveal. A secret random choice decided which of two copies is
+        /// published ([`crate::sections::memory`]).
         Sibling = "sibling",
     }
 }
@@ -47,7 +48,7 @@ impl FromStr for Twin {
 /// A twin: a game with the same mechanics as the original but a different surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TwinGame {
-    /// The rules, preceded by the title and the canary.
+    /// The rules, preceded by the title and the canary (an identifier for finding the release in text corpora).
     pub text: String,
     /// The levels, in the original's order.
     pub levels: Vec<String>,
@@ -80,7 +81,7 @@ pub enum TwinError {
     /// The rules cannot be mirrored faithfully.
     #[error("the game cannot be mirrored: {0}")]
     Unmirrorable(String),
-    /// The game has no withheld sibling, or the sibling was not revealed.
+    /// The game has no sibling (withheld renamed copy), or the sibling was not revealed.
     #[error("the game has no sibling, or the sibling was not revealed")]
     NoSibling,
     /// The game has no second theme.
@@ -106,7 +107,7 @@ pub fn of_game(
     of_levels(kind, source, levels, known)
 }
 
-/// Creates a twin like [`of_game`], but any level may lack a witness.
+/// Creates a twin (a copy with a different surface) like [`of_game`], but any level may lack a witness.
 fn of_levels(
     kind: Twin,
     source: &str,
@@ -122,8 +123,8 @@ fn of_levels(
     }
 }
 
-/// Creates a renamed twin from the caller's seed, instead of the publicly known seed. Also returns the name of the
-/// twin's scene.
+/// Creates a renamed twin (a copy under different names) from the caller's seed, instead of the publicly known seed.
+/// Also returns the name of the twin's scene (theme).
 pub(crate) fn renamed(
     source: &str,
     levels: &[String],
@@ -134,7 +135,7 @@ pub(crate) fn renamed(
     Original::load(source, levels, known)?.renamed(seed)
 }
 
-/// The original of a twin.
+/// The original game from which a twin is made.
 struct Original<'a> {
     game: Game,
     /// The canonical level texts.
@@ -228,7 +229,8 @@ impl Made {
         format!("Game {}", self.game.digest().short())
     }
 
-    /// Completes the twin with its text, preceded by the title and by the original's canary if there is one.
+    /// Completes the twin with its text, preceded by the title and by the original's canary (the release's identifier
+    /// in text corpora) if there is one.
     fn headed(self, original: &Original<'_>) -> TwinGame {
         let comments = original.game.description().header.trivia.above.iter().map(|line| line.trim());
         let canaries = comments.filter(|line| line.starts_with(CANARY));

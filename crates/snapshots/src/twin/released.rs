@@ -1,4 +1,4 @@
-//! Twins of released games.
+//! Twins of released games, which are copies with a different surface.
 
 use super::{Made, Original, Twin, TwinError, TwinGame, of_levels};
 use crate::released::{ReleasedGame, ReleasedSibling};
@@ -30,7 +30,7 @@ pub fn of_released(kind: Twin, released: &ReleasedGame) -> Result<TwinGame, Twin
     Ok(twin)
 }
 
-/// Creates the twin from a game's sibling, with the game's witnesses.
+/// Creates the twin from a game's sibling (its withheld renamed copy), with the game's witnesses.
 fn of_sibling(released: &ReleasedGame, sibling: &ReleasedSibling) -> Result<TwinGame, TwinError> {
     let original = Original {
         game: sibling.game.clone(),

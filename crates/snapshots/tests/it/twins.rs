@@ -1,4 +1,4 @@
-//! Tests of twins of corpus games, which have the same mechanics under any surface.
+//! Tests of twins of corpus games, which have the same mechanics but different names, characters or orientation.
 
 use agents::{PortfolioConfig, Solution, solve};
 use base::Seed;
@@ -53,7 +53,7 @@ fn of(sample: &Sample, kind: Twin) -> Result<TwinGame, TwinError> {
     twin::of_game(kind, &sample.source, &sample.levels, &sample.witnesses)
 }
 
-/// Loads a twin, and replays its witnesses.
+/// Loads a twin (a copy of a game with a different surface), and replays its witnesses.
 fn check(sample: &Sample, twin: &TwinGame) -> Game {
     let name = &sample.name;
     let game = Game::from_source(&twin.text).unwrap_or_else(|problems| panic!("{name}: {problems}"));

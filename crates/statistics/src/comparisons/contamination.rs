@@ -14,20 +14,20 @@ use crate::planning::design::{Spread, logistic};
 /// The result of a [`coin_test`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoinTest {
-    /// The one-sided exact p-value: the probability of a sum at least this large if the player does not know
-    /// how any coin fell.
+    /// The one-sided exact p-value: the probability of a sum at least this large if the player does not know which
+    /// items were published.
     pub p: f64,
-    /// The sum of the differences, published side minus sealed side.
+    /// The sum of the differences: results on published items minus results on withheld items.
     pub sum: i64,
-    /// The number of coins whose two sides have different results. Equal results are not evidence.
+    /// The number of pairs whose published and withheld items have different results. Equal results are not evidence.
     pub informative: usize,
 }
 
-/// Tests whether a player's results depend on which side was published. For each coin, `differences` contains the
-/// result on the published side minus the result on the sealed side. A result is a number of wins, or the number of
-/// episodes that begin like that side's witness. Both sides must have the same number of episodes.
+/// Tests whether a player's results depend on which of two items was published. For each pair, `differences` contains
+/// the result on the published item minus the result on the withheld item. A result is a number of wins, or the number
+/// of episodes that begin like that item's winning episode. Both items must have the same number of episodes.
 ///
-/// Cost: O(coins · sum of the absolute differences).
+/// Cost: O(pairs · sum of the absolute differences).
 ///
 /// ```
 /// use infinite_arcade_statistics::coin_test;
@@ -39,8 +39,8 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     let sum = differences.iter().sum();
     let sizes: Vec<usize> =
         differences.iter().filter(|&&one| one != 0).map(|one| one.unsigned_abs() as usize).collect();
-    // `chances` contains the probability of each total. Each size either counts towards the total (published side) or
-    // does not count (sealed side).
+    // `chances` contains the probability of each total. Each difference either counts towards the total (the published
+    // item is better) or does not count (the withheld item is better).
     let mut chances = vec![1.0];
     for &size in &sizes {
         let mut next = vec![0.0; chances.len() + size];
@@ -55,9 +55,10 @@ pub fn coin_test(differences: &[i64]) -> CoinTest {
     CoinTest { p: p.min(1.0), sum, informative: sizes.len() }
 }
 
-/// Returns the power of [`coin_test`] at the significance level `alpha`, for the given number of coins with one
-/// episode per side. A coin favours the published side with probability `more`, and the sealed side with probability
-/// `less`. Returns NaN unless both are probabilities with a sum of at most 1. Cost: O(coins²).
+/// Returns the power of [`coin_test`] at the significance level `alpha`, for the given number of pairs (one published
+/// and one withheld item) with one episode per item. The published item has the better result with probability `more`,
+/// and the withheld item with probability `less`. Returns NaN unless both are probabilities with a sum of at most 1.
+/// Cost: O(coins²).
 pub fn coin_power(coins: u64, more: f64, less: f64, alpha: f64) -> f64 {
     if !(0.0..=1.0).contains(&more) || !(0.0..=1.0).contains(&less) || more + less > 1.0 + 1e-12 {
         return f64::NAN;
@@ -107,8 +108,8 @@ pub struct Memoriser {
 }
 
 impl Memoriser {
-    /// Returns the probability that the player wins only the published sibling of a level, and the probability that
-    /// the player wins only the sealed sibling.
+    /// Returns two probabilities for a level that exists in a published and in a withheld renaming: the player wins
+    /// only the published one, and the player wins only the withheld one.
     pub fn sibling_chances(&self, spread: Spread) -> (f64, f64) {
         let ability = spread.ability(self.clean);
         let square =
@@ -126,8 +127,8 @@ impl Memoriser {
         (more / sum, less / sum)
     }
 
-    /// Returns the probability that an episode begins like the published witness, and the probability that it begins
-    /// like the sealed witness. Without memory, both are `by_chance`.
+    /// Returns the probability that an episode begins like the published win, and the probability that it begins like
+    /// the withheld win. Without memory, both are `by_chance`.
     pub fn prefix_chances(&self, by_chance: f64) -> (f64, f64) {
         let less = (1.0 - self.share) * by_chance;
         (self.share + less, less)
@@ -138,7 +139,7 @@ impl Memoriser {
 mod tests {
     use super::*;
 
-    /// The p-value matches an enumeration of the outcomes of all coin tosses.
+    /// The p-value matches an enumeration of the outcomes of all random choices.
     #[test]
     fn every_fall_counted() {
         let differences = [3, -1, 0, 2, 1, -2, 1];
@@ -172,8 +173,8 @@ mod tests {
         }
     }
 
-    /// Checks that the wins of a player without memory do not depend on the coin, and that memory helps only
-    /// on the published side.
+    /// Checks that the wins of a player without memory do not depend on the random choice, and that memory helps only
+    /// on the published item.
     #[test]
     fn chances() {
         let clean = Memoriser { share: 0.0, known: 0.9, clean: 0.27 };
@@ -185,8 +186,8 @@ mod tests {
         assert!((more - 0.24).abs() < 1e-12 && (less - 0.04).abs() < 1e-12);
     }
 
-    /// The prefix test detects a player that has memorised a fifth of the levels. The sibling test needs a player
-    /// that has memorised half of the levels.
+    /// The test of beginnings detects a player that has memorised a fifth of the levels. The test of wins on two
+    /// renamings needs a player that has memorised half of the levels.
     #[test]
     fn power_of_planned_tests() {
         let fifth = Memoriser { share: 0.2, known: 0.9, clean: 0.27 };

@@ -22,10 +22,10 @@ pub struct Spread {
 }
 
 impl Default for Spread {
-    /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for match effects. The values for games
-    /// and levels were measured with built-in players. The value for match effects is based on the published results
-    /// of fifteen language models on six games (`docs/reference/spec/paper-winrates.csv`), for which the
-    /// maximum-likelihood estimate is 0.88.
+    /// Returns standard deviations of 1.3 for games, 1.0 for levels and 0.9 for match effects. The values for games and
+    /// levels were measured with built-in players. The value for match effects (how well a game suits a player) is
+    /// based on the published results of fifteen language models on six games
+    /// (`docs/reference/spec/paper-winrates.csv`), for which the maximum-likelihood estimate is 0.88.
     fn default() -> Spread {
         Spread { games: 1.3, levels: 1.0, matches: 0.9 }
     }
@@ -111,8 +111,8 @@ impl Design {
         // about that mean. `cross` is the sum of the products of the variances and the mean difference.
         let (mut powers, mut inner, mut cross) = ([0.0; 3], 0.0, 0.0);
         for (game, weight) in nodes() {
-            // The entry for each match effect contains its weight, the mean rate on this game, and the rates on each
-            // of the game's levels.
+            // The entry for each match effect (how well the game suits a player) contains its weight, the mean rate on
+            // this game, and the rates on each of the game's levels.
             let of_side = |side: usize| -> Vec<(f64, f64, Vec<f64>)> {
                 let with = |(fit, weight): (f64, f64)| {
                     let centre = ability[side] + spread.games * game + spread.matches * fit;

@@ -35,7 +35,8 @@ pub struct PlayedGame {
 pub struct MismatchPrior {
     /// The median of the prior, in logits.
     pub median: f64,
-    /// The standard deviation of the prior for the natural logarithm of the match effects' standard deviation.
+    /// The standard deviation of the prior for the natural logarithm of the match effects' standard deviation. A match
+    /// effect states how well a game suits the player.
     pub log_sd: f64,
 }
 
@@ -66,7 +67,8 @@ pub struct Ability {
     /// For the lower end of the interval and for the upper end, `true` if the data determine that end. Without wins,
     /// there is no lower bound; without losses, there is no upper bound.
     pub is_bounded: [bool; 2],
-    /// The posterior mean of the standard deviation of the player's match effects.
+    /// The posterior mean of the standard deviation of the player's match effects, which state how well each game suits
+    /// the player.
     pub mismatch_sd: f64,
 }
 
@@ -76,8 +78,8 @@ pub(super) const STEP: f64 = 0.15;
 pub(super) const SIDE: i32 = 67;
 /// The standard deviation of the prior for an ability.
 pub(super) const ABILITY_SD: f64 = 5.0;
-/// The grid for the standard deviation of match effects: its smallest node, the ratio between adjacent nodes, and the
-/// number of nodes.
+/// The grid for the standard deviation of match effects (how well each game suits the player): its smallest node, the
+/// ratio between adjacent nodes, and the number of nodes.
 const MISMATCHES: (f64, f64, usize) = (0.2, 1.4, 10);
 /// The number of standard deviations at which a normal distribution is truncated.
 pub(super) const TAIL: f64 = 5.0;
@@ -134,7 +136,8 @@ pub fn ability(games: &[PlayedGame], prior: MismatchPrior, link: f64) -> Option<
 /// The posterior density on the grids of abilities and of mismatches (standard deviations of match effects).
 struct Density<'a> {
     games: &'a [PlayedGame],
-    /// The posterior weights, indexed by mismatch and ability. The weights sum to 1.
+    /// The posterior weights, indexed by mismatch (the standard deviation of the match effects) and ability. The
+    /// weights sum to 1.
     weights: Vec<Vec<f64>>,
     mismatches: Vec<f64>,
 }
@@ -182,7 +185,8 @@ impl<'a> Density<'a> {
         (0..self.weights[0].len()).map(|at| self.weights.iter().map(|of| of[at]).sum()).collect()
     }
 
-    /// Returns the posterior mean and variance of the ability, and the posterior mean of the mismatch.
+    /// Returns the posterior mean and variance of the ability, and the posterior mean of the mismatch (the standard
+    /// deviation of the match effects).
     fn moments(&self) -> (f64, f64, f64) {
         let all = self.abilities();
         let nodes = || (-SIDE..=SIDE).map(|node| f64::from(node) * STEP).zip(&all);

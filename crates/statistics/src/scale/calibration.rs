@@ -47,7 +47,8 @@ impl Difficulties {
 /// The difficulties of a game's levels, and how well the episodes on the game fit the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameDifficulties {
-    /// The difficulties for planners and for readers. The standard errors exclude the link error.
+    /// The difficulties for planners and for readers (players that see only prompts). The standard errors exclude the
+    /// link error.
     pub difficulties: [Difficulties; 2],
     /// The sum of squared residuals divided by the sum of their variances. It is about 1 if the episodes on the game
     /// fit the model, and greater if they do not.
@@ -59,52 +60,54 @@ pub struct GameDifficulties {
 pub struct Month {
     /// The release's games, in the order of the given results.
     pub games: Vec<GameDifficulties>,
-    /// The difference in mean level difficulty between the month and the first release, for planners and for readers.
-    /// The errors include the link error for arbitrary players in that dimension.
+    /// The difference in mean level difficulty between the month and the first release, for planners and for readers
+    /// (players that see only prompts). The errors include the link error for arbitrary players in that dimension.
     pub shifts: [Estimated; 2],
     /// The shift in mean difficulty for exactly the planners in the calibration. The error includes the link error
     /// for these planners.
     pub planners_shift: Estimated,
-    /// The standard error that the difficulties of all levels share, for planners and for readers. The error of the
-    /// first release is 0.
+    /// The standard error that the difficulties of all levels share, for planners and for readers (players that see
+    /// only prompts). The error of the first release is 0.
     pub link: [f64; 2],
-    /// The part of the month's difficulty for readers that its difficulty for planners does not imply. `None` if no
-    /// anchor (a reader from the calibration) played.
+    /// The part of the month's difficulty for readers (players that see only prompts) that its difficulty for planners
+    /// does not imply. `None` if no anchor (a reader from the calibration) played.
     pub drift: Option<Estimated>,
 }
 
-/// The result of a calibration, which places examinees and a first release on the same scale.
+/// The result of a calibration, which places examinees (reference players that never change) and a first release on the
+/// same scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    /// The calibration's examinees.
+    /// The calibration's examinees, which are reference players that never change.
     pub examinees: Vec<Examinee>,
     /// The model's estimated standard deviations and slopes.
     pub spreads: Spreads,
-    /// The examinees' abilities. An ability is the examinee's logit on an average game. The average is over the
-    /// distribution from which the first release was drawn.
+    /// The abilities of the examinees (reference players that never change). An ability is the player's logit on an
+    /// average game. The average is over the distribution from which the first release was drawn.
     pub abilities: Vec<f64>,
     /// The covariance matrix of the abilities, the two origins and the ease, in this order, stored by rows.
     pub covariance: Vec<f64>,
-    /// The mean difficulties of the first release's levels for planners and for readers. These origins define the
-    /// zero of the scale.
+    /// The mean difficulties of the first release's levels for planners and for readers (players that see only
+    /// prompts). These origins define the zero of the scale.
     pub origins: [f64; 2],
     /// The planners' mean logit on the first release.
     pub ease: f64,
 }
 
 impl Calibration {
-    /// Calibrates a first release by estimating spreads, abilities and difficulties. Every examinee must have played
-    /// at least one episode.
+    /// Calibrates a first release by estimating spreads (standard deviations), abilities and difficulties. Every
+    /// examinee (a reference player that never changes) must have played at least one episode.
     ///
-    /// Returns `None` if there are no episodes, if an entry is invalid, or if an examinee has no episodes.
-    /// Cost: a few hundred evaluations of O(games · effects³) each.
+    /// Returns `None` if there are no episodes, if an entry is invalid, or if an examinee has no episodes. Cost: a few
+    /// hundred evaluations of O(games · effects³) each.
     pub fn new(examinees: &[Examinee], games: &[GamePlays]) -> Option<(Calibration, Month)> {
         let model = checked(examinees, games, None)?;
         let spreads = spreads_of(&model, Spreads::default())?;
         Calibration::with_spreads(examinees, games, spreads)
     }
 
-    /// Calibrates a first release with given spreads. Only abilities and difficulties are estimated.
+    /// Calibrates a first release with given spreads (standard deviations). Only abilities and difficulties are
+    /// estimated.
     pub fn with_spreads(
         examinees: &[Examinee],
         games: &[GamePlays],
@@ -142,8 +145,8 @@ impl Calibration {
         Some((calibration, base))
     }
 
-    /// Returns an examinee's ability relative to the mean difficulty of the first release's levels, in the examinee's
-    /// dimension.
+    /// Returns the ability of an examinee (a reference player that never changes), relative to the mean difficulty of
+    /// the first release's levels in the examinee's dimension.
     pub fn ability(&self, examinee: usize) -> Estimated {
         let side = side(self.examinees[examinee].dimension);
         let (count, at) = (self.examinees.len(), |i: usize, j: usize| self.covariance(i, j));
@@ -152,10 +155,10 @@ impl Calibration {
         Estimated { value: self.abilities[examinee] - self.origins[side], error: variance.max(0.0).sqrt() }
     }
 
-    /// Adds a release by fixed-parameter calibration. The difficulties of the new levels are estimated, while
-    /// abilities and spreads stay fixed.
+    /// Adds a release by fixed-parameter calibration. The difficulties of the new levels are estimated, while abilities
+    /// and spreads (standard deviations) stay fixed.
     ///
-    /// Returns `None` in the same cases as [`Calibration::new`], except that examinees without episodes are
+    /// Returns `None` in the same cases as [`Calibration::new`], except that reference players without episodes are
     /// allowed.
     pub fn add(&self, games: &[GamePlays]) -> Option<Month> {
         let model = checked(&self.examinees, games, Some(&self.abilities))?;
@@ -262,7 +265,7 @@ fn checked<'a>(
     (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
 }
 
-/// Returns the spreads with the maximum posterior density after integrating out all effects.
+/// Returns the spreads (standard deviations) with the maximum posterior density after integrating out all effects.
 pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {

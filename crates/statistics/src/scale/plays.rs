@@ -1,4 +1,5 @@
-//! The results of examinees: the numbers of episodes that each examinee played and won on each level.
+//! The results of examinees (reference players that never change): the numbers of episodes that each examinee played
+//! and won on each level.
 
 /// A dimension of ability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -9,20 +10,20 @@ pub enum Dimension {
     Reader,
 }
 
-/// A participant in a calibration.
+/// An examinee: a reference player that never changes, and whose results calibrate the scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Examinee {
     /// The examinee's dimension.
     pub dimension: Dimension,
     /// The index of a planner's family. Planners of the same family find the same games hard. The index is unused for
-    /// readers.
+    /// players that see only prompts.
     pub family: usize,
 }
 
-/// One examinee's results on one level.
+/// The results of one examinee (a reference player) on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plays {
-    /// The examinee's index in the calibration.
+    /// The index of the reference player in the calibration.
     pub examinee: usize,
     /// The level's index in the game.
     pub level: usize,
@@ -32,12 +33,12 @@ pub struct Plays {
     pub of: f64,
 }
 
-/// All examinees' results on one game.
+/// The results of all examinees (reference players that never change) on one game.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GamePlays {
     /// The number of levels in the game.
     pub levels: usize,
-    /// The examinees' results, with at most one entry per examinee and level.
+    /// The results, with at most one entry per examinee (reference player) and level.
     pub plays: Vec<Plays>,
 }
 

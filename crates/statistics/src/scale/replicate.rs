@@ -1,6 +1,6 @@
-//! The parametric bootstrap of a calibration. In each replicate, the same examinees play the same number of new
-//! games, which are drawn from the estimated model. If there are few episodes, Laplace's method shrinks the spreads.
-//! The replicates measure this shrinkage and the variance of the estimates.
+//! The parametric bootstrap of a calibration. In each replicate, the same examinees (reference players) play the same
+//! number of new games, which are drawn from the estimated model. If there are few episodes, Laplace's method shrinks
+//! the spreads (standard deviations). The replicates measure this shrinkage and the variance of the estimates.
 
 use super::calibration::{Calibration, spreads_of};
 use super::logistic::logistic;
@@ -20,9 +20,9 @@ pub struct Correlated {
 }
 
 impl Calibration {
-    /// Simulates the examinees' results on new games drawn from the model, and returns the spreads estimated from
-    /// those results. The new games have the same numbers of levels and episodes as `games`. Cost: one
-    /// [`Calibration::new`].
+    /// Simulates the results of the examinees (reference players) on new games drawn from the model, and returns the
+    /// spreads (standard deviations) estimated from those results. The new games have the same numbers of levels and
+    /// episodes as `games`. Cost: one [`Calibration::new`].
     pub fn replicate(&self, games: &[GamePlays], seed: u64) -> Option<Spreads> {
         let mut draws = Draws::new(seed);
         let model = Model::new(&self.examinees, games, None);
@@ -40,9 +40,9 @@ impl Calibration {
         spreads_of(&Model::new(&self.examinees, &games, None), self.spreads)
     }
 
-    /// Returns the spreads, corrected for the bias found in the replicates. The correction subtracts the mean
-    /// bias from logarithms of standard deviations, and from slopes. Without replicates, the spreads are
-    /// unchanged.
+    /// Returns the spreads (standard deviations), corrected for the bias found in the replicates. The correction
+    /// subtracts the mean bias from logarithms of standard deviations, and from slopes. Without replicates, the spreads
+    /// are unchanged.
     pub fn corrected(&self, replicates: &[Spreads]) -> Spreads {
         let has_readers = self.has_readers();
         let found = self.spreads.parameters(has_readers);
@@ -54,9 +54,9 @@ impl Calibration {
         Spreads::from_parameters(&moved.collect::<Vec<f64>>())
     }
 
-    /// Returns the correlation between level difficulties for planners and for readers, corrected for the bias found
-    /// in the replicates. The interval is computed on Fisher's scale from the variation between replicates. Returns
-    /// `None` if there are no readers, or fewer than two replicates.
+    /// Returns the correlation between level difficulties for planners and for readers (players that see only prompts),
+    /// corrected for the bias found in the replicates. The interval is computed on Fisher's scale from the variation
+    /// between replicates. Returns `None` if there are no readers, or fewer than two replicates.
     pub fn correlation(&self, replicates: &[Spreads]) -> Option<Correlated> {
         if replicates.len() < 2 || !self.has_readers() {
             return None;
@@ -73,7 +73,7 @@ impl Calibration {
         Some(Correlated { value: libm::tanh(value), interval: Interval { low, high } })
     }
 
-    /// Returns `true` if any examinee is a reader.
+    /// Returns `true` if any examinee (reference player) is a reader, which sees only prompts.
     pub fn has_readers(&self) -> bool {
         self.examinees.iter().any(|one| one.dimension == super::Dimension::Reader)
     }

@@ -4,12 +4,13 @@
 use super::ability::{ABILITY_SD, PlayedGame, SIDE, STEP, TAIL, kernel, nodes};
 use super::logistic::logistic;
 
-/// Returns the expected standard error of an ability after the planned episodes. In `games`, `of` is the planned
-/// number of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the player's match
-/// effects. `link` is the standard error that the difficulties of all levels share.
+/// Returns the expected standard error of an ability after the planned episodes. In `games`, `of` is the planned number
+/// of episodes on each level, and `won` is unused. `mismatch` is the standard deviation of the player's match effects,
+/// which state how well each game suits the player. `link` is the standard error that the difficulties of all levels
+/// share.
 ///
-/// The information from a game's episodes is the sum over the game's levels, reduced because all levels of a game
-/// share one match effect. Cost: O(levels).
+/// The information from a game's episodes is the sum over the game's levels, reduced because all levels of a game share
+/// one match effect. Cost: O(levels).
 ///
 /// ```
 /// use infinite_arcade_statistics::scale::{PlayedGame, PlayedLevel, expected_error};
@@ -190,8 +191,9 @@ mod tests {
         assert_eq!(std::iter::from_fn(|| selection.choose()).count(), 40);
     }
 
-    /// The ability estimated by a selection, for which the mismatch is given, agrees with the ability estimated on
-    /// the scale, for which the mismatch is estimated. The expected errors agree as well.
+    /// The ability estimated by a selection agrees with the ability estimated on the scale. The selection is given the
+    /// mismatch (the standard deviation of the match effects), and the scale estimates it. The expected errors agree as
+    /// well.
     #[test]
     fn errors_are_those_of_the_scale() {
         let mut played = games(60);

@@ -20,11 +20,11 @@ pub struct Plan {
     pub families: Vec<usize>,
     /// The number of episodes per planner and level.
     pub runs: u32,
-    /// The number of readers that play the month.
+    /// The number of readers (players that see only prompts) that play the month.
     pub anchors: usize,
-    /// The number of episodes per reader and level.
+    /// The number of episodes per reader (a player that sees only prompts) and level.
     pub anchor_runs: u32,
-    /// The number of bootstrap replicates used to correct the bias of the spreads.
+    /// The number of bootstrap replicates used to correct the bias of the spreads (standard deviations).
     pub replicates: u64,
     /// The model's true standard deviations and slopes.
     pub spreads: Spreads,
@@ -33,9 +33,9 @@ pub struct Plan {
 /// A simulated month, with its true values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedMonth {
-    /// The examinees' results, by game.
+    /// The results of the examinees (reference players), by game.
     pub plays: Vec<GamePlays>,
-    /// The true difficulties for planners and for readers, indexed by game and level.
+    /// The true difficulties for planners and for readers (players that see only prompts), indexed by game and level.
     pub difficulties: [Vec<Vec<f64>>; 2],
     /// The planners' true mean logit on all levels.
     pub ease: f64,
@@ -54,14 +54,15 @@ impl SimulatedMonth {
 pub struct Simulator {
     draws: Draws,
     plan: Plan,
-    /// The examinees who play the months.
+    /// The examinees (reference players) who play the months.
     pub examinees: Vec<Examinee>,
-    /// The examinees' true abilities.
+    /// The true abilities of the examinees (reference players).
     pub abilities: Vec<f64>,
 }
 
 impl Simulator {
-    /// Creates a simulator. The planners range from weak to strong, and the readers are weaker on average.
+    /// Creates a simulator. The planners range from weak to strong. The readers (players that see only prompts) are
+    /// weaker on average.
     pub fn new(plan: Plan, seed: u64) -> Simulator {
         let mut examinees = Vec::new();
         let mut abilities = Vec::new();
@@ -80,8 +81,8 @@ impl Simulator {
         Simulator { draws: Draws::new(seed), plan, examinees, abilities }
     }
 
-    /// Draws a month. For planners, the month is harder than the mean of all games by `shift` logits. For readers, it
-    /// is harder than the shift implies by `drift` logits.
+    /// Draws a month. For planners, the month is harder than the mean of all games by `shift` logits. For readers
+    /// (players that see only prompts), it is harder than the shift implies by `drift` logits.
     pub fn month(&mut self, shift: f64, drift: f64) -> SimulatedMonth {
         let Plan { games, levels, spreads, .. } = self.plan.clone();
         let planners = self.plan.families.iter().sum::<usize>();
@@ -165,24 +166,26 @@ impl Simulator {
 pub struct AbilityCase {
     /// The player's true ability.
     pub ability: f64,
-    /// The standard deviation of the player's match effects.
+    /// The standard deviation of the player's match effects, which state how well each game suits the player.
     pub mismatch: f64,
     /// The number of episodes that the player plays.
     pub episodes: usize,
 }
 
-/// The link errors of a month. Each pair contains the estimate minus the true value, and the stated error.
+/// The link errors of a month. Each pair contains the difference between the estimate and the true value, and the
+/// stated error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkTrial {
     /// The link error for exactly the planners in the calibration.
     pub to_these: (f64, f64),
     /// The link error for arbitrary planners.
     pub to_any: (f64, f64),
-    /// The link error for the month's difficulties for readers.
+    /// The link error for the month's difficulties for readers, which are players that see only prompts.
     pub to_readers: (f64, f64),
-    /// The error of the drift estimated from the anchors. Without anchors, the pair is (0, ∞).
+    /// The error of the drift (the additional difficulty for readers, which see only prompts), estimated from the
+    /// month's readers. Without readers, the pair is (0, ∞).
     pub drift: (f64, f64),
-    /// The estimated spreads.
+    /// The estimated spreads (standard deviations).
     pub spreads: Spreads,
 }
 

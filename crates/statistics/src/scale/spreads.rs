@@ -1,31 +1,36 @@
-//! The model's standard deviations, and the slopes between the difficulties for planners and for readers.
+//! The model's standard deviations, and the slopes between the difficulties for planners and for readers (players that
+//! see only prompts).
 
 /// The model's standard deviations in logits, and two slopes.
 ///
 /// A game's difficulty for planners is normally distributed with mean 0 and standard deviation `game`. The difficulty
-/// for readers is the difficulty for planners multiplied by the slope, plus an independent remainder. The same model
-/// applies to levels.
+/// for readers (players that see only prompts) is the difficulty for planners multiplied by the slope, plus an
+/// independent remainder. The same model applies to levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spreads {
     /// For planners, the standard deviation of game difficulty.
     pub game: f64,
     /// For planners, the standard deviation of level difficulty within a game.
     pub level: f64,
-    /// The standard deviation of the match effect between a family of planners and a game.
+    /// The standard deviation of the match effect between a family of planners and a game, which states how well the
+    /// game suits the family.
     pub family: f64,
-    /// The standard deviation of the match effect between a planner and a game, beyond the effect of the planner's
-    /// family.
+    /// The standard deviation of the match effect between a planner and a game (how well the game suits the planner),
+    /// beyond the effect of the planner's family.
     pub planner: f64,
-    /// The increase in a game's difficulty for readers per logit of its difficulty for planners.
-    pub game_slope: f64,
-    /// The increase in a level's difficulty for readers, relative to its game, per logit of its difficulty for
+    /// The increase in a game's difficulty for readers (players that see only prompts) per logit of its difficulty for
     /// planners.
+    pub game_slope: f64,
+    /// The increase in a level's difficulty for readers (players that see only prompts), relative to its game, per
+    /// logit of its difficulty for planners.
     pub level_slope: f64,
-    /// The standard deviation of the independent component of game difficulty for readers.
+    /// The standard deviation of the component of a game's difficulty for readers (players that see only prompts) that
+    /// is independent of its difficulty for planners.
     pub game_rest: f64,
-    /// The standard deviation of the independent component of level difficulty for readers.
+    /// The standard deviation of the component of a level's difficulty for readers (players that see only prompts) that
+    /// is independent of its difficulty for planners.
     pub level_rest: f64,
-    /// The standard deviation of the match effect between a reader and a game.
+    /// The standard deviation of the match effect between a reader (a player that sees only prompts) and a game.
     pub reader: f64,
 }
 
@@ -45,9 +50,9 @@ impl Default for Spreads {
     }
 }
 
-/// The number of parameters in a model without readers.
+/// The number of parameters in a model without readers (players that see only prompts).
 pub(super) const PLANNERS_ONLY: usize = 4;
-/// The number of parameters in a model with readers.
+/// The number of parameters in a model with readers (players that see only prompts).
 pub(super) const WITH_READERS: usize = 9;
 /// The mean and the standard deviation of the prior for the logarithm of a standard deviation. The range of two
 /// standard deviations on either side of the mean is 0.14 to 7 logits.
@@ -66,8 +71,8 @@ impl Spreads {
         all
     }
 
-    /// Returns the spreads for the given parameters. If there are no parameters for readers, the spreads of readers
-    /// are the defaults.
+    /// Returns the spreads for the given parameters. If there are no parameters for readers (players that see only
+    /// prompts), the spreads of readers are the defaults.
     pub(super) fn from_parameters(parameters: &[f64]) -> Spreads {
         let sd = |at: usize| libm::exp(parameters[at]);
         let planners =
@@ -96,7 +101,8 @@ impl Spreads {
         (logs.iter().sum(), slopes)
     }
 
-    /// Returns the variances of a level's difficulty for planners and for readers, and their covariance.
+    /// Returns the variances of a level's difficulty for planners and for readers (players that see only prompts), and
+    /// their covariance.
     fn moments(&self) -> (f64, f64, f64) {
         let (game, level) = (self.game * self.game, self.level * self.level);
         let planners = game + level;
@@ -107,7 +113,7 @@ impl Spreads {
         (planners, readers, self.game_slope * game + self.level_slope * level)
     }
 
-    /// Returns the correlation between level difficulties for planners and for readers.
+    /// Returns the correlation between level difficulties for planners and for readers (players that see only prompts).
     pub fn correlation(&self) -> f64 {
         let (planners, readers, both) = self.moments();
         both / (planners * readers).sqrt()
@@ -138,7 +144,8 @@ mod tests {
         assert!((planners.game - 2.0).abs() < 1e-12 && planners.reader == Spreads::default().reader);
     }
 
-    /// If the slopes are 1 and there is no independent component, levels are as hard for readers as for planners.
+    /// If the slopes are 1 and there is no independent component, levels are as hard for readers (players that see only
+    /// prompts) as for planners.
     #[test]
     fn correlations() {
         let same = Spreads {

@@ -12,7 +12,8 @@ use validators::{
 /// The values of measures, by name.
 pub(super) type Measures = BTreeMap<String, f64>;
 
-/// The number of forward-model calls for each level, divided between the search for a win and the ladder.
+/// The number of forward-model calls for each level, divided between the search for a win and the ladder (the reference
+/// players of increasing strength).
 const CALLS: u64 = 200_000;
 
 /// Returns a game's measures: the measures of its episodes, the length of its wins in ticks, and the

@@ -199,8 +199,8 @@ impl Judging {
         (both, levels)
     }
 
-    /// Returns a recording of an episode on a level, frame by frame. The episode is deterministic. Stops early
-    /// and returns a refusal once `gone` returns `true`.
+    /// Returns a recording of an episode on a level, frame by frame. The episode is deterministic. Stops early and
+    /// returns an error response once `gone` returns `true`.
     pub(crate) fn watch(
         &self,
         cache: &Cache,

@@ -52,7 +52,7 @@ pub enum Entry {
         root: Digest,
         /// The previous release's root.
         parent: Option<Digest>,
-        /// The release's commitment, if the release is sealed.
+        /// The release's commitment, if the release is sealed (its seed and witnesses are withheld).
         commitment: Option<Digest>,
         /// The public random value mixed into the release's seed.
         beacon: Option<Digest>,
@@ -112,7 +112,8 @@ pub struct ResultRow {
     pub results: Digest,
     /// The player's label.
     pub player: String,
-    /// The track with its version, or `None` for custom prompts and for players that read no prompts.
+    /// The track (bundle of prompt settings) with its version, or `None` for custom prompts and for players that read
+    /// no prompts.
     pub track: Option<String>,
     /// The number of actions per answer, or `all`.
     pub horizon: String,

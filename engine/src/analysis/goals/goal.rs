@@ -22,8 +22,8 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// Returns the counted types: all types that can have sprites, including relatives. A type counted twice
-    /// by a `MultiSpriteCounter` occurs twice.
+    /// Returns the counted types: all types that can have sprites, including types related to them in the SpriteSet. A
+    /// type counted twice by a `MultiSpriteCounter` occurs twice.
     pub fn types(&self) -> &[SpriteType] {
         match self {
             Condition::AtMost(types, _) | Condition::AtLeast(types, _) | Condition::Exactly(types, _) => {
@@ -90,7 +90,7 @@ impl Goal {
     }
 }
 
-/// The terminations' demands on the player. Each list is sorted by type.
+/// The requirements that the terminations impose on the player. Each list is sorted by type.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Aims {
     /// Types whose sprites must be removed for a win, either entirely or down to a small number.
@@ -185,7 +185,7 @@ impl Analysis {
         &self.goals
     }
 
-    /// Returns the terminations' demands on the player.
+    /// Returns the requirements that the terminations impose on the player.
     pub fn aims(&self) -> &Aims {
         &self.aims
     }

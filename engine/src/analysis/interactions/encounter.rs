@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 /// A summary of one interaction line for one of its partners.
 #[derive(Clone, Debug)]
 pub struct Encounter {
-    /// The first type, as written. The rule also applies to all its relatives (see
+    /// The first type, as written. The rule also applies to all related types in the SpriteSet (see
     /// [`Analysis::applies`](crate::analysis::Analysis::applies)).
     pub first: SpriteType,
     /// The partner, as written, or `None` for the edge of the screen.

@@ -63,7 +63,7 @@ pub struct Resource {
     pub is_ammunition: bool,
 }
 
-/// The fate of a sprite that is pushed onto a partner.
+/// The effect on a sprite that is pushed onto a partner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     /// The pushed sprite stays on the cell, unchanged.

@@ -1,4 +1,4 @@
-//! Summaries of interactions, by encounter, pair and touch.
+//! Summaries of interactions: by rule and pair of types (encounters), by pair, and by what the avatar touches.
 
 pub(crate) mod encounter;
 pub(crate) mod lock;

@@ -103,7 +103,7 @@ pub struct Facts {
     pub span: (usize, usize),
     /// `true` if sprites of the type live for only a few ticks.
     pub fleeting: bool,
-    /// `true` if at most one sprite of the type, including its singleton relatives, exists at a time.
+    /// `true` if at most one sprite of the type, including related singleton types in the SpriteSet, exists at a time.
     pub singleton: bool,
     /// `true` if the type can be held as a resource.
     pub is_resource: bool,

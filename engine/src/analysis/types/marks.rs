@@ -61,7 +61,8 @@ pub(crate) struct Harms<'a> {
     pub(crate) source: &'a [bool],
 }
 
-/// Computes the [`Marks`] of every type. Cost: O(interactions × relatives).
+/// Computes the [`Marks`] of every type, which are flags derived from its interactions. Cost: O(interactions ×
+/// relatives).
 pub(crate) fn marks(
     rules: &Rules,
     encounters: &[Encounter],
@@ -115,8 +116,8 @@ pub(crate) fn marks(
     marks
 }
 
-/// Returns, for each type, whether `holds` is true for the type or for any relative to which rules on the
-/// type apply.
+/// Returns, for each type, whether `holds` is true for the type or for any related type in the SpriteSet to which rules
+/// on the type apply.
 fn by_family(rules: &Rules, holds: impl Fn(SpriteType) -> bool) -> Vec<bool> {
     let own: Vec<bool> = (0..rules.types.len()).map(|at| holds(SpriteType(at as u16))).collect();
     rules.types.iter().map(|info| info.tree.iter().any(|stype| own[stype.index()])).collect()

@@ -69,7 +69,7 @@ pub enum Role {
 }
 
 impl Analysis {
-    /// Derives a type's role from its marks and the other parts of the analysis. Cost: O(types × avatars).
+    /// Derives a type's role from its flags ([`Marks`]) and the other parts of the analysis. Cost: O(types × avatars).
     pub(crate) fn role_with(&self, stype: SpriteType, marks: Marks) -> Role {
         let at = stype.index();
         let fact = &self.facts[at];

@@ -27,7 +27,7 @@ pub(crate) trait Arguments {
     fn keyword(&mut self, key: &'static str) -> u16;
     /// Returns the effect that addTimer schedules, which is compiled as a separate line.
     fn timed(&mut self) -> u16;
-    /// Returns the relatives of a type, excluding the type itself.
+    /// Returns the types related to a type in the SpriteSet, excluding the type itself.
     fn relatives(&self, stype: SpriteType) -> Box<[SpriteType]>;
 }
 

@@ -48,8 +48,8 @@ pub enum EffectSummary {
     Teleport,
     /// The first sprite reappears at the opposite edge.
     Wrap,
-    /// The speed of all sprites of this type and its relatives changes. If the type is `None`, only the first
-    /// sprite's speed changes.
+    /// The speed of all sprites of this type and of related types in the SpriteSet changes. If the type is `None`, only
+    /// the first sprite's speed changes.
     Speed(Option<SpriteType>),
     /// A sprite of this type appears.
     Make(SpriteType),

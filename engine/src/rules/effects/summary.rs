@@ -202,7 +202,7 @@ pub(crate) enum SpeedChange {
 /// An effect on the speed of sprites.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SpeedEffect {
-    /// The speeds of a type and its relatives change.
+    /// The speeds of a type and of related types in the SpriteSet change.
     OfAll { stype: SpriteType, value: f64, how: SpeedChange },
     /// The first sprite's speed is halved.
     Half,
@@ -232,7 +232,7 @@ pub(crate) enum Gives {
     Amount { resource: SpriteType, value: i32, used_up: bool },
 }
 
-/// Spawn points of a type and its relatives that create a different type from then on.
+/// Spawn points of a type and of related types in the SpriteSet that create a different type from then on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Redirection {
     pub(crate) spawn_point: SpriteType,

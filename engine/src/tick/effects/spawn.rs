@@ -96,8 +96,8 @@ pub(super) fn if_counter_subtypes(
     step.add(if met { stype } else { otherwise }, rect.x, rect.y);
 }
 
-/// Sets the type that spawn points of a type and its relatives create. For spawn points that draw from a
-/// list, replaces the partner's type in the list.
+/// Sets the type that spawn points of a type and of related types in the SpriteSet create. For spawn points that draw
+/// from a list, replaces the partner's type in the list.
 pub(super) fn update_type(
     step: &mut Step<'_, impl Scheduler>,
     partner: Option<Slot>,

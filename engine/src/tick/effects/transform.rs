@@ -46,7 +46,7 @@ pub(super) fn all(
     }
 }
 
-/// Transforms the sprite into a random relative of a type.
+/// Transforms the sprite into a random type that is related to a given type in the SpriteSet.
 pub(super) fn random_child(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,

@@ -217,7 +217,7 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// Returns the sprites of exactly this type. If there are none, returns those of its relatives.
+/// Returns the sprites of exactly this type. If there are none, returns the sprites of related types in the SpriteSet.
 fn own_or_related<'a>(step: &mut Step<'a, impl Scheduler>, stype: SpriteType) -> Targets<'a> {
     if stype == SpriteType::NONE {
         step.stop(Limit::NoType);

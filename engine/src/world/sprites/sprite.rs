@@ -8,7 +8,7 @@ use crate::rules::SpriteType;
 pub(crate) type Slot = u16;
 /// The value of `heading` for an NPC that has not drawn a direction.
 pub(crate) const NO_HEADING: u32 = 4;
-/// The slot index that stands for no sprite.
+/// The slot (index of a sprite in the state's storage) that stands for no sprite.
 pub(crate) const NONE: Slot = u16::MAX;
 
 /// The bits of [`Sprite::flags`]. Traces record the first four.
@@ -34,7 +34,7 @@ pub(crate) mod flag {
     /// The sprite is dirty: it is in `World::dirty`, because the running hash may contain an older version of
     /// it.
     pub(crate) const DIRTY: u32 = 512;
-    /// The slot is free.
+    /// The slot (entry in the state's storage of sprites) is free.
     pub(crate) const FREE: u32 = 1024;
     /// The sprite is not completely on the screen.
     pub(crate) const OFF: u32 = 2048;

@@ -1,4 +1,4 @@
-//! Plans for courts: open ground around a landmark.
+//! Plans for courts: open ground around a landmark, which is the plan's main feature.
 
 use super::between;
 use crate::boards::canvas::Canvas;

@@ -1,4 +1,4 @@
-//! Board plans. Each plan is a site with a landmark, and its proportions are drawn at random.
+//! Board plans. Each plan is a site with a landmark (its main feature), and its proportions are drawn at random.
 
 mod courts;
 mod halls;

@@ -72,7 +72,7 @@ impl Bodies {
         lines
     }
 
-    /// Returns the rules for picking up the items that no mechanic's rule lets the hero take.
+    /// Returns the rules for picking up the items that no mechanic's rule lets the avatar take.
     pub(super) fn picks_up(&self, taken: &BTreeSet<String>) -> Vec<InteractionLine> {
         let items = self.with(Body::Item).filter(|item| !taken.contains(*item));
         let pick = |item| {

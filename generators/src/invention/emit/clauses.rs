@@ -1,4 +1,4 @@
-//! A mechanic's clauses, with the names of types in place of ports.
+//! A mechanic's clauses, with the names of types in place of ports, which are the mechanic's open roles.
 
 use super::name;
 use super::own_name;
@@ -19,7 +19,7 @@ pub(super) struct Clauses {
     pub(super) terminations: Vec<TerminationLine>,
 }
 
-/// Reads a mechanic's clauses, and replaces its ports with the names of their types.
+/// Reads a mechanic's clauses, and replaces its ports (open roles) with the names of the types that fill them.
 pub(super) fn clauses(invention: &Invention, types: &[Merged], at: usize) -> Result<Clauses, GenerateError> {
     let mechanic = invention.mechanics[at];
     let values = &invention.values[at];
@@ -77,7 +77,7 @@ fn section(name: &str, lines: &str) -> String {
     format!("    {name}\n{}", lines.map(|line| format!("        {line}\n")).collect::<String>())
 }
 
-/// Returns the internal names of a mechanic's ports and types.
+/// Returns the internal names of the types that fill a mechanic's ports (open roles), and of the mechanic's own types.
 pub(in crate::invention) fn names_of(
     mechanic: &Mechanic,
     types: &[Merged],
@@ -95,7 +95,8 @@ pub(in crate::invention) fn names_of(
     ports.chain(own).collect()
 }
 
-/// Extends the rules of other mechanics to the states that still count as the port's type.
+/// Extends the rules that other mechanics have for the type of a port (open role) to those states of the type that
+/// still count as the type.
 pub(super) fn extend_to_states(invention: &Invention, types: &[Merged], clauses: &mut [Clauses]) {
     for (at, mechanic) in invention.mechanics.iter().enumerate() {
         let names = names_of(mechanic, types, at);

@@ -55,7 +55,8 @@ fn lasting_states(invention: &Invention, types: &[Merged], class: usize) -> Vec<
     merged.ports.iter().flat_map(of_port).collect()
 }
 
-/// Makes an ending that counts a type also count the type's lasting states.
+/// Makes an ending that counts a type also count the states into which the type can turn and which still count as the
+/// type.
 pub(super) fn count_states(invention: &Invention, types: &[Merged], line: &mut TerminationLine) {
     let value = |line: &TerminationLine, key: &str| {
         line.params.iter().find(|param| param.key.text == key).map(|param| param.value.text.clone())

@@ -1,4 +1,5 @@
-//! Conversion of merged ports to rules: the mechanics' clauses with type names, and the rules that follow from bodies.
+//! Conversion of merged ports (roles filled by one type) to rules: the mechanics' clauses with type names, and the
+//! rules that follow from a type's body.
 
 mod bodies;
 mod clauses;
@@ -21,13 +22,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// An invention's rules, with internal names.
 pub(in crate::invention) struct Written {
     pub(in crate::invention) description: Description,
-    /// The index of each interaction's mechanic; `None` for interactions that follow from bodies.
+    /// The index of each interaction's mechanic; `None` for interactions that follow from the types' bodies.
     pub(in crate::invention) owners: Vec<Option<usize>>,
 }
 
 impl Written {
-    /// Removes a partner that triggers a compiler warning from its interaction, if the interaction follows from bodies.
-    /// Returns `false` if the interaction belongs to a mechanic.
+    /// Removes a partner that triggers a compiler warning from its interaction, if the interaction follows from the
+    /// types' bodies. Returns `false` if the interaction belongs to a mechanic.
     pub(in crate::invention) fn leave_out(
         &mut self,
         dressed: &mut Description,
@@ -54,7 +55,7 @@ impl Written {
     }
 }
 
-/// Returns the internal name of the type that fills the given class of ports.
+/// Returns the internal name of the type that fills the given class of merged ports (open roles of mechanics).
 pub(in crate::invention) fn name(class: usize) -> String {
     format!("type{class}")
 }
@@ -170,7 +171,7 @@ fn is_hero(origin: &Origin) -> bool {
     matches!(origin, Origin::State { port, .. } if port == "hero")
 }
 
-/// Writes the SpriteSet. Types drawn below others come first, and the hero comes last.
+/// Writes the SpriteSet. Types drawn below others come first, and the avatar comes last.
 fn sprites(
     types: &[Merged],
     bodies: &Bodies,

@@ -27,7 +27,7 @@ pub(super) use nouns::Noun;
 use nouns::{Place, Words};
 use std::collections::BTreeMap;
 
-/// The colours available to heroes.
+/// The colours available to avatars.
 const HEROES: [&str; 2] = ["GREEN", "LIGHTGREEN"];
 
 /// A game's texts.
@@ -266,7 +266,7 @@ fn add_states(castings: &BTreeMap<String, Casting>, nouns: &mut Nouns) {
     }
 }
 
-/// Returns the nouns for a mechanic's ports and types, by their names in the mechanic.
+/// Returns the nouns for a mechanic's ports (open roles) and types, by their names in the mechanic.
 fn ports_in_words(mechanic: &Mechanic, types: &[Merged], at: usize, nouns: &Nouns) -> Nouns {
     let names = emit::names_of(mechanic, types, at);
     let own = names.into_iter().filter_map(|(port, internal)| Some((port, nouns.get(&internal)?.clone())));
@@ -323,7 +323,8 @@ fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<Strin
     said
 }
 
-/// Draws a title from the two types that fill the most ports, the hero and the setting.
+/// Draws a title from the avatar's noun, the setting, and the two types that fill the most ports (open roles of
+/// mechanics).
 fn title(types: &[Merged], nouns: &Nouns, place: &str, sampler: &mut Sampler) -> Result<String, String> {
     let joint = |(_, merged): &(usize, &Merged)| std::cmp::Reverse(merged.ports.len());
     let things: Vec<&String> = types

@@ -107,7 +107,7 @@ pub(crate) struct Place {
     pub(crate) heroes: Vec<String>,
     /// The proper names for settings of this kind.
     pub(crate) names: Vec<String>,
-    /// The sentences that explain why the hero is in the setting, with the placeholders `<hero>` and
+    /// The sentences that explain why the main character is in the setting, with the placeholders `<hero>` and
     /// `<name>`.
     pub(crate) reasons: Vec<String>,
 }

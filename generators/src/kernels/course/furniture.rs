@@ -50,8 +50,8 @@ pub(super) fn furnish(
     Some(())
 }
 
-/// Returns, for each room, the opening through which the hero first enters the room; `None` for the hero's own
-/// room.
+/// Returns, for each room, the opening through which the avatar first enters the room; `None` for the room in which the
+/// avatar starts.
 fn entries(
     map: &Map,
     embedding: &Embedding,

@@ -1,4 +1,4 @@
-//! Levels from maps. A graph of rooms is laid out on a board, and the rooms are built and furnished.
+//! Levels from maps. A graph of rooms is laid out on a board, the rooms are built, and sprites are placed in them.
 
 mod cell;
 mod embedding;
@@ -28,9 +28,9 @@ const STRETCHED: (usize, usize) = (3, 4);
 pub(crate) struct Traits {
     /// The types that occur in the game.
     pub(crate) present: BTreeSet<String>,
-    /// The types that stop the hero or that the hero pushes.
+    /// The types that stop the avatar or that the avatar pushes.
     pub(crate) solid: BTreeSet<String>,
-    /// The types that kill the hero on contact.
+    /// The types that kill the avatar on contact.
     pub(crate) deadly: BTreeSet<String>,
     /// The types that move back and forth; `true` for those that move vertically.
     pub(crate) lanes: BTreeMap<String, bool>,

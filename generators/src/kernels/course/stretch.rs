@@ -103,7 +103,7 @@ mod tests {
         counts
     }
 
-    /// Returns the sprites that the hero can reach.
+    /// Returns the sprites that the avatar can reach.
     fn reached(board: &Board) -> Vec<String> {
         let cells = (0..board.rows).flat_map(|y| (0..board.columns).map(move |x| (x, y)));
         let start = cells.into_iter().find(|&cell| board.at(cell) == Some("a")).unwrap();

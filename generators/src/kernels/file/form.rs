@@ -1,4 +1,5 @@
-//! The forms of a kernel: the same dilemma with a different ending, a different cast, or different movers.
+//! The forms of a kernel (a hand-written game design): the same dilemma with a different ending, different sprite
+//! types, or different movers.
 
 use super::kernel::{Casting, File, LevelFile, VariantFile};
 use crate::kernels::words::phrase;
@@ -44,7 +45,7 @@ pub(crate) struct Form {
 }
 
 impl Form {
-    /// Returns the kernel's file with only this form's changes applied.
+    /// Returns the text of the kernel's file with only this form's changes applied.
     pub(crate) fn applied(&self, file: &File) -> File {
         let tells = |text: &str| self.without.iter().any(|stype| phrase::tells_of(text, stype));
         let said = |texts: &[String]| texts.iter().filter(|text| !tells(text)).cloned().collect::<Vec<_>>();
@@ -113,7 +114,7 @@ impl Form {
                 }
                 _ if section == "SpriteSet" => {
                     let margin = &line[..line.len() - line.trim_start().len()];
-                    // New types come before the hero, which is drawn above them.
+                    // New types come before the avatar, which is drawn above them.
                     if name(line) == "hero" {
                         own.iter()
                             .filter(is_new)

@@ -1,8 +1,9 @@
-//! A kernel: a small set of coupled rules around one dilemma, with the maps of its levels.
+//! Kernels. A kernel is a hand-written game design: a small set of coupled rules around one dilemma, with the maps of
+//! its levels.
 //!
-//! A kernel is a file in `generators/kernels/`. The file contains VGDL rules whose names do not depend on a scene, the
-//! role of every type and, for each of five slots, the maps that pose the dilemma. `docs/reference/kernels.md` is the
-//! manual.
+//! A kernel is a file in `generators/kernels/`. The file contains VGDL rules whose names do not depend on a theme, and
+//! the role of every type. For each of five positions in the sequence of levels, it also contains the maps that pose
+//! the dilemma. `docs/reference/kernels.md` is the manual.
 
 use super::form::Form;
 use super::map::Map;
@@ -14,7 +15,7 @@ use std::collections::BTreeMap;
 use std::iter;
 use std::sync::OnceLock;
 
-/// A kernel whose numbers and nouns have not been drawn yet.
+/// A kernel (a hand-written game design) whose numbers and nouns have not been drawn yet.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub(crate) name: String,
@@ -55,7 +56,7 @@ pub(crate) struct Sections {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
 pub(crate) enum Casting {
-    /// The scene's noun for the given role.
+    /// The noun for the given role in a scene, which is the theme's list of nouns.
     Role(String),
     /// A different state of another type.
     State {
@@ -76,7 +77,7 @@ impl Casting {
 }
 
 base::named_enum! {
-    /// A level's purpose in a course of five levels, in course order.
+    /// A level's purpose in a course, which is a game's sequence of five levels.
     pub enum Slot {
         /// The level introduces the game's trick in a small and safe setting.
         Introduce = "introduce",
@@ -91,7 +92,7 @@ base::named_enum! {
     }
 }
 
-/// The map of a level, and the level's question to the player.
+/// The map of a level, and a sentence about the problem that the level poses to the player.
 #[derive(Debug)]
 pub(crate) struct LevelPlan {
     pub(crate) slot: Slot,
@@ -196,7 +197,8 @@ impl Kernel {
     /// Reads a kernel file.
     ///
     /// # Errors
-    /// Returns the first error. Examples are errors in the format, in a number or in a map, and a slot without a level.
+    /// Returns the first error. Examples are errors in the format, in a number or in a map, and a slot (position in the
+    /// sequence of levels) without a level.
     pub(crate) fn read(name: &str, text: &str) -> Result<Kernel, KernelError> {
         let file: File = toml::from_str(text)
             .map_err(|error| KernelError { kernel: name.to_owned(), message: error.to_string() })?;
@@ -291,7 +293,7 @@ impl Kernel {
         Ok(kernel)
     }
 
-    /// Checks that every slot has a level, and that maps and pieces can be drawn.
+    /// Checks that every slot (position in the sequence of levels) has a level, and that maps and pieces can be drawn.
     fn check(&self) -> Result<(), String> {
         for slot in Slot::ALL {
             if !self.levels.iter().any(|level| level.slot == slot) {

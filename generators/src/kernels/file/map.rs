@@ -60,7 +60,7 @@ pub(crate) enum Style {
     Ring,
 }
 
-/// Sprites to place in a room.
+/// Sprites of one type to place in a room.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Item {
     pub(crate) stype: String,

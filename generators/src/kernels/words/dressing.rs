@@ -54,7 +54,7 @@ impl<'a> Palette<'a> {
         }
     }
 
-    /// Draws a colour for a type. The player gets the palette's hero colour, a noun with a natural colour gets that
+    /// Draws a colour for a type. The avatar gets the palette's avatar colour, a noun with a natural colour gets that
     /// colour, and any other type gets a colour that suits its role.
     fn draw(&mut self, name: &str, role: &str) -> String {
         let mut natural = self.nouns.get(name).into_iter().flat_map(|noun| hues::natural(noun));

@@ -1,4 +1,5 @@
-//! Scenes. A scene has a character, an aim and a setting, and nouns for the roles of sprite types.
+//! Scenes, which are themes for games. A scene has a character, an aim and a setting, and nouns for the roles of sprite
+//! types.
 
 use crate::kernels::file::kernel::{Casting, Kernel};
 use base::Sampler;
@@ -6,7 +7,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// A scene: a file in `generators/scenes/`.
+/// A scene, which is a theme for games: a file in `generators/scenes/`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Scene {
@@ -44,7 +45,7 @@ pub(crate) struct Retelling {
 }
 
 impl Retelling {
-    /// Draws a title about the setting, the task or the hero.
+    /// Draws a title about the setting, the task or the avatar.
     pub(crate) fn title(&self, hero: &str, title_word: &str, sampler: &mut Sampler) -> String {
         let adjectives: Vec<&str> = separated(&self.adjectives).collect();
         let nouns: Vec<&str> = separated(&self.nouns).collect();

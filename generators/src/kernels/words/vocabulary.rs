@@ -1,4 +1,4 @@
-//! The roles that kernels and scenes use, and the colours of each role.
+//! The roles of sprite types in kernels (game designs) and scenes (themes), and the colours of each role.
 
 use crate::games::palette::COLORS;
 

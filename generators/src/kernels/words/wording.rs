@@ -16,8 +16,8 @@ use std::collections::BTreeMap;
 pub struct Wording {
     analysis: Analysis,
     kernel: Option<OfKernel>,
-    /// `true` for inventions, and for games with grafts (types taken from a second kernel) from older versions. Texts
-    /// about such games are not checked.
+    /// `true` for inventions, and for games from older versions that contain types from a second kernel ("grafts").
+    /// Texts about such games are not checked.
     is_unchecked: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The tools for furnishing a board: placing sprites at sensible positions.
+//! The tools for filling a board: placing sprites at sensible positions.
 
 use super::board::Board;
 use super::plan::{self, Wish};
@@ -11,8 +11,8 @@ use base::Sampler;
 use engine::analysis::{Motion, Role, Steering};
 use engine::{Analysis, Direction, SpriteType};
 
-/// The weight factor for a cell next to a companion. In the examples, a companion almost always stands next to a sprite
-/// of the type to be placed.
+/// The weight factor for a cell next to a companion, which is a sprite that almost always stands next to a sprite of
+/// the type in the examples.
 const COMPANION_WEIGHT: u32 = 1000;
 /// The weight factor for a cell in line with other sprites of a type, if such sprites stand in lines in the examples.
 const LINE_WEIGHT: u32 = 40;

@@ -1,4 +1,4 @@
-//! The constructive level generator. It builds the walls, furnishes the board according to the types' roles, and then
+//! The constructive level generator. It builds the walls, places sprites according to the types' roles, and then
 //! inspects the result.
 
 use super::board::Board;
@@ -18,15 +18,15 @@ use engine::{Action, Analysis, Game, Level, SpriteType};
 
 /// The number of boards to try for one seed.
 const ATTEMPTS: u64 = 40;
-/// The number of additional boards to try in order to meet optional wishes: the cover, companions as in the examples,
-/// and a level that is not trivial.
+/// The number of additional boards to try in order to meet the optional requirements. These are the fraction of
+/// occupied cells, types that stand next to each other as in the examples, and a level that is not trivial.
 const COVERS: u64 = 6;
 /// The maximum total number of cells on all tried boards. Large boards take longer.
 const PATIENCE: u64 = 2600;
-/// The number of boards to try for a puzzle. If all of them fail, the level is furnished like a level without a puzzle.
+/// The number of boards to try for a puzzle. If all of them fail, sprites are placed as in a level without a puzzle.
 const PUZZLES: u64 = 30;
 
-/// The rank of a board that meets all wishes.
+/// The rank of a board that meets all optional requirements.
 const ALL: u32 = 0b1111;
 /// The number of layouts to draw. The layout whose walls are most similar to the examples is used.
 const LAYOUTS: usize = 2;
@@ -57,7 +57,7 @@ pub struct Solved {
     pub solution: Option<Vec<Action>>,
 }
 
-/// A furnished board, and its solution.
+/// A board with all sprites, and its solution.
 pub(crate) struct Made {
     pub(crate) board: Board,
     /// The actions that win the level; `None` if the generator does not know any.
@@ -138,7 +138,7 @@ impl<'a> ConstructiveLevels<'a> {
     /// # Errors
     /// Returns [`GenerateError::Unlucky`] if every attempted board has a fault.
     pub fn generate_solved(&self, seed: Seed) -> Result<Solved, GenerateError> {
-        // The best board so far, ranked by the wishes that it meets.
+        // The best board so far, ranked by the optional requirements that it meets.
         let mut second_best: Option<(u32, Solved)> = None;
         let mut tried = 0;
         let mut fault = "no board could be filled with the required sprites".to_owned();
@@ -156,7 +156,7 @@ impl<'a> ConstructiveLevels<'a> {
                         && (self.config.like.is_none() || self.chasers_reach_targets(&made.board));
                     let trivial = self.config.like.is_some() && self.is_trivial(&level, seed);
                     let solved = Solved { level, solution: made.solution };
-                    // The most important wish comes first.
+                    // The most important requirement comes first.
                     let rank = [survivable, covered, !trivial, has_companions];
                     let rank = rank.into_iter().fold(0, |rank, met| 2 * rank + u32::from(met));
                     if rank == ALL {
@@ -165,7 +165,7 @@ impl<'a> ConstructiveLevels<'a> {
                     if second_best.as_ref().is_none_or(|(best, _)| rank > *best) {
                         second_best = Some((rank, solved));
                     }
-                    // Stop early, because a wish that several boards have failed to meet is unlikely to be met.
+                    // Stop early, because a requirement that several boards have failed to meet is unlikely to be met.
                     tried += u64::from(survivable);
                     if tried > COVERS || tried * cells > PATIENCE {
                         break;
@@ -177,7 +177,7 @@ impl<'a> ConstructiveLevels<'a> {
         second_best.map(|(_, solved)| solved).ok_or(GenerateError::Unlucky(fault))
     }
 
-    /// Builds one furnished board.
+    /// Builds one board with all sprites.
     fn attempt(&self, seed: Seed, attempt: u64) -> Option<Made> {
         let mut layout = seed.child("layout", 0).sampler();
         let examples = self.config.like.as_deref();

@@ -37,7 +37,7 @@ pub(crate) struct Jobs {
     pub(crate) keys: usize,
     /// The types of pushable objects that are merely obstacles.
     pub(crate) loose: Vec<SpriteType>,
-    /// The sprites that the avatar must touch at the end, in order: keys, then exits and goods.
+    /// The sprites that the avatar must touch at the end, in order: keys, then exits and collectables.
     pub(crate) visits: Vec<SpriteType>,
     /// `true` if the plan is sufficient for a win.
     pub(crate) is_all: bool,

@@ -1,5 +1,5 @@
-//! Construction of levels. A layout provides the walls, the roles of the sprite types guide the furnishing, and the
-//! result is inspected.
+//! Construction of levels. A layout provides the walls, sprites are placed according to the roles of their types, and
+//! the result is inspected.
 
 pub(crate) mod board;
 pub(crate) mod builder;

@@ -14,7 +14,7 @@ pub(crate) struct Wish {
     pub(crate) count: usize,
 }
 
-/// Returns the types for furnishing a board that has `area` open cells, and the number of each. Gates, keys, walls and
+/// Returns the types to place on a board that has `area` open cells, and the number of each. Gates, keys, walls and
 /// soil are placed separately.
 pub(crate) fn wishes(
     analysis: &Analysis,
@@ -39,7 +39,7 @@ pub(crate) fn wishes(
     wishes
 }
 
-/// Returns the types for furnishing a level, and the number of each, following the examples.
+/// Returns the types to place on a level's board, and the number of each, following the examples.
 pub(crate) fn wishes_like(
     analysis: &Analysis,
     palette: &Palette,

@@ -1,4 +1,4 @@
-//! The row with a fuse above a level. A spark burns along the fuse to a keg.
+//! The row with a fuse above a level, which limits the time. A spark burns along the fuse to a keg.
 
 /// The characters in a fuse's row.
 pub(crate) struct FuseSymbols {

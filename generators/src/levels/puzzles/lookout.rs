@@ -1,5 +1,5 @@
-//! A careful player among strays (sprites that wander at random). The player's win rate shows how often a player that
-//! looks at the board often enough can win a level.
+//! A simulated player among wandering deadly sprites. The player's win rate shows how often a level can be won by
+//! looking at the board often enough.
 
 use crate::levels::grid::{Grid, WAYS};
 use base::{Sampler, Seed};
@@ -23,7 +23,7 @@ const NEVER: u16 = u16::MAX;
 /// The actions for the steps in [`WAYS`].
 pub(crate) const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
-/// An avatar's moves among strays (randomly wandering sprites), as a graph of states and steps.
+/// An avatar's moves among wandering deadly sprites, as a graph of states and steps.
 pub(crate) trait Moves {
     /// Returns the number of states.
     fn states(&self) -> usize;
@@ -33,33 +33,34 @@ pub(crate) trait Moves {
     fn cell(&self, state: usize) -> usize;
     /// Returns `true` if a state is won.
     fn is_won(&self, state: usize) -> bool;
-    /// Returns `true` if something other than a stray would kill the avatar in the given cell after the given tick.
+    /// Returns `true` if something other than a wandering sprite would kill the avatar in the given cell after the
+    /// given tick.
     fn is_busy(&self, tick: usize, cell: usize) -> bool;
     /// Returns the possible steps in a state, each with the state after the step. A step is an index into [`WAYS`], or
     /// `None` for a rest.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)>;
 }
 
-/// The strays at the start of a level, and the floor on which they wander. Only walls stop strays.
+/// The wandering deadly sprites at the start of a level, and the floor on which they wander. Only walls stop them.
 #[derive(Clone, Debug)]
 pub(crate) struct Strays {
     pub(crate) grid: Grid,
     pub(crate) is_floor: Vec<bool>,
     pub(crate) cells: Vec<usize>,
-    /// The number of ticks that a stray (a randomly wandering sprite) takes to move one cell.
+    /// The number of ticks that a wandering sprite takes to move one cell.
     pub(crate) cooldown: usize,
 }
 
 impl Strays {
-    /// Returns `true` if the strays move in the given tick. Strays that do not move in every tick rest in the first
-    /// tick.
+    /// Returns `true` if the wandering sprites move in the given tick. If they do not move in every tick, they rest in
+    /// the first tick.
     fn move_in(&self, tick: usize) -> bool {
         (tick + 1).is_multiple_of(self.cooldown)
     }
 }
 
-/// A player that knows everything except the strays' future random moves. It plans the path with the highest
-/// probability of avoiding all strays, taking the remaining time into account. Collisions in different ticks are
+/// A player that knows everything except the future random moves of the wandering sprites. It plans the path with the
+/// highest probability of avoiding them, taking the remaining time into account. Collisions in different ticks are
 /// treated as independent. The resulting win rate is a lower bound on the win rate of an optimal player.
 pub(crate) struct Lookout<M> {
     strays: Strays,
@@ -68,8 +69,8 @@ pub(crate) struct Lookout<M> {
     steps: Vec<Vec<(usize, usize)>>,
     /// The number of ticks until the time runs out.
     ticks: usize,
-    /// For each tick and each state before it, the earliest tick at which the player could win without strays, or
-    /// [`NEVER`].
+    /// For each tick and each state before it, the earliest tick at which the player could win without wandering
+    /// sprites, or [`NEVER`].
     finish: Vec<u16>,
     /// For each number of ticks, the probability of surviving that long.
     survival: Vec<f64>,
@@ -104,9 +105,9 @@ impl<M: Moves> Lookout<M> {
         self.moves.cell(self.moves.start())
     }
 
-    /// Places strays in the first of the `cells`. Uses the largest number in the range such that this number and all
-    /// smaller ones are fair. A number is fair if a player that looks before every tick wins at least a fraction
-    /// `share` of `plays` episodes. Returns the number, or `None` if even the smallest one is not fair.
+    /// Places wandering deadly sprites in the first of the `cells`. Uses the largest number in the range such that this
+    /// number and all smaller ones are fair. A number is fair if a player that looks before every tick wins at least a
+    /// fraction `share` of `plays` episodes. Returns the number, or `None` if even the smallest one is not fair.
     pub(crate) fn most_fair(
         &mut self,
         cells: &[usize],
@@ -125,7 +126,8 @@ impl<M: Moves> Lookout<M> {
         Some(number)
     }
 
-    /// Returns the fraction of `plays` episodes that the player wins if it looks at the strays every `commit` ticks.
+    /// Returns the fraction of `plays` episodes that the player wins if it looks at the wandering sprites every
+    /// `commit` ticks.
     pub(crate) fn rate(&self, commit: usize, plays: usize, sampler: &mut Sampler) -> f64 {
         let won = (0..plays).filter(|_| self.play(commit, sampler)).count();
         won as f64 / plays.max(1) as f64
@@ -167,9 +169,9 @@ impl<M: Moves> Lookout<M> {
         false
     }
 
-    /// Plays the game, looking before every tick. Strays have the type `stray`. If the first episode is lost, retries
-    /// with a more patient and a less patient player. Returns a winning sequence of actions; `None` if all episodes are
-    /// lost.
+    /// Plays the game, looking before every tick. `stray` is the type of the wandering sprites. If the first episode is
+    /// lost, retries with a more patient and a less patient player. Returns a winning sequence of actions; `None` if
+    /// all episodes are lost.
     pub(crate) fn win_game(
         &mut self,
         game: &Game,
@@ -287,7 +289,7 @@ impl<M: Moves> Lookout<M> {
     }
 
     /// Returns, for each tick after `tick` up to `last` and for each cell, the probability that the cell contains no
-    /// stray.
+    /// wandering sprite.
     fn clear(&self, tick: usize, last: usize, strays: &[usize]) -> Vec<Vec<f64>> {
         let cells = self.strays.grid.len();
         let one = |&stray: &usize| {
@@ -314,7 +316,7 @@ impl<M: Moves> Lookout<M> {
             .collect()
     }
 
-    /// Returns a stray's cell after a step in the given direction.
+    /// Returns a wandering sprite's cell after a step in the given direction.
     fn walked(&self, cell: usize, way: (i32, i32)) -> usize {
         self.strays.grid.shift(cell, way).filter(|&next| self.strays.is_floor[next]).unwrap_or(cell)
     }

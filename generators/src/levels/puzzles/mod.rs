@@ -1,4 +1,4 @@
-//! Puzzles generated to meet a target: pushing puzzles, lock puzzles and yards.
+//! Puzzles generated to meet a target: pushing puzzles, lock puzzles, and yards (carrying parcels among carts).
 
 pub(crate) mod fuse;
 pub(crate) mod locks;

@@ -9,7 +9,7 @@ fn seed() -> Seed {
     Seed::from_text("masks")
 }
 
-/// Checks that the twin has the same hashes and outcomes for the same actions.
+/// Checks that the masked copy has the same hashes and outcomes for the same actions.
 fn plays_alike(name: &str, source: &Description, levels: &[String]) {
     let masked = Masked::of(source, seed().child(name, 0));
     assert_eq!(masked, Masked::of(source, seed().child(name, 0)));

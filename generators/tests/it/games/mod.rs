@@ -31,7 +31,7 @@ fn generated() -> impl Iterator<Item = (String, Description, Vec<String>)> {
     })
 }
 
-/// Checks that the twin has the same hashes, scores and outcomes for the same actions.
+/// Checks that the renamed copy has the same hashes, scores and outcomes for the same actions.
 fn play_alike(name: &str, game: &Game, twin: &Game, levels: &[String], translate: impl Fn(&str) -> String) {
     for (number, level) in levels.iter().enumerate() {
         let seed = Seed::from_text(name).child("level", number as u64);

@@ -1,4 +1,4 @@
-//! Tests of pushing games among strays.
+//! Tests of pushing games among strays, which are deadly sprites that wander at random.
 
 use base::Seed;
 use engine::{Action, Game, State, syntax};
@@ -8,8 +8,8 @@ use generators::levels::{StrayConfig, StrayLevels};
 /// The names of the pushed types and of the avatar.
 const MOVED: [&str; 5] = ["crate", "barrel", "settledCrate", "settledBarrel", "pusher"];
 
-/// Returns the same rules without strays. If there are no such rules without sills, returns rules with sills, which
-/// play the same in levels without sills.
+/// Returns the same rules without wandering sprites. If there are no such rules without sills, returns rules with
+/// sills, which play the same in levels without sills.
 fn without_strays(rules: PushRules) -> PushRules {
     let name = rules.name();
     let calm = name.strip_suffix("-strays").expect("rules with strays");
@@ -25,7 +25,8 @@ fn burn(game: &Game) -> u32 {
     cooldown.value.text.parse().expect("a number")
 }
 
-/// If no strays are in the way, things move as in the rules without strays. A failed push moves nothing.
+/// If no wandering sprites are in the way, things move as in the rules without such sprites. A failed push moves
+/// nothing.
 #[test]
 fn things_are_pushed_among_strays_as_without_them() {
     let config = StrayConfig { strays: (3, 3), fairness: 0.0, ..StrayConfig::default() };
@@ -61,7 +62,7 @@ fn things_are_pushed_among_strays_as_without_them() {
             }
         }
         pushed += usize::from(places(&game, &state, 1) != places(&game, &game.start(&level, seed), 1));
-        // `undoAll` would undo the moves of the strays and the spark.
+        // `undoAll` would undo the moves of the wandering sprites and the spark.
         assert!(!syntax::print(game.description()).contains("undoAll"), "{}", rules.name());
     }
     assert!(pushed > 4, "{pushed}");

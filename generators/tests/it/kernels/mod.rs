@@ -105,7 +105,7 @@ fn every_kernel_builds_in_every_scene() {
     }
 }
 
-/// Every map of each slot can be laid out with its own game.
+/// Every map of each slot (position in the sequence of levels) can be laid out with its own game.
 #[test]
 fn every_map_becomes_levels() {
     for (kernel, form) in forms() {

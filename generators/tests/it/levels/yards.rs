@@ -1,4 +1,4 @@
-//! Tests of the yard generator.
+//! Tests of the generator of yards, which are puzzles about carrying parcels.
 
 use base::Seed;
 use engine::syntax::Word;
@@ -21,7 +21,8 @@ fn boards_without_room_have_no_level() {
     assert_eq!(tight.level(YardRules::ALL[0], Seed::from_text("tight")), None);
 }
 
-/// Carts run in the game as in the timetable. Without strays, the solution wins, and the avatar survives to its end.
+/// Carts run in the game as in the timetable. Without wandering sprites, the solution wins, and the avatar survives to
+/// its end.
 #[test]
 fn levels_are_won_as_their_solutions_say() {
     for rules in YardRules::ALL {

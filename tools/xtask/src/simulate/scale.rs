@@ -120,7 +120,8 @@ pub(super) fn ability(args: &Args) -> Table {
     table
 }
 
-/// Simulates a month's drift for readers, estimated with anchors.
+/// Simulates a month's drift (the additional difficulty for players that see only prompts), estimated with anchors
+/// (unchanging players of this kind).
 pub(super) fn drift(args: &Args) -> Table {
     let count = args.trials.unwrap_or(100);
     let mut cases = Vec::new();

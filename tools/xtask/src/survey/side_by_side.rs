@@ -45,7 +45,7 @@ pub(crate) struct Args {
     /// Forward-model calls to win a level
     #[arg(long, value_name = "CALLS", default_value_t = GameSurvey::criteria().budget)]
     budget: u64,
-    /// Maximum number of episodes on a level for each player on the ladder
+    /// Maximum number of episodes on a level for each reference player
     #[arg(long, value_name = "N", default_value_t = GameSurvey::criteria().ladder_plays)]
     plays: u64,
     /// Forward-model calls of all players on a level, after which no further round of episodes begins

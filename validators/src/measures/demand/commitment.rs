@@ -1,4 +1,4 @@
-//! The longest commitment with which a planner still wins.
+//! The longest commitment (number of actions per decision) with which a planner still wins.
 
 use super::patience;
 use agents::{Budget, OpenLoop, PlannerSpec};
@@ -11,19 +11,19 @@ base::named_enum! {
     pub enum Commitment {
         /// No planner wins, even when observing the game before every action.
         None = "none",
-        /// A commitment of 1 action: the player observes the game before every action.
+        /// One action per decision: the player observes the game before every action.
         One = "1",
-        /// A commitment of 2 actions.
+        /// Two actions per decision.
         Two = "2",
-        /// A commitment of 5 actions.
+        /// Five actions per decision.
         Five = "5",
-        /// A commitment of 10 actions.
+        /// Ten actions per decision.
         Ten = "10",
-        /// A commitment of 20 actions.
+        /// Twenty actions per decision.
         Twenty = "20",
-        /// A commitment of 50 actions.
+        /// Fifty actions per decision.
         Fifty = "50",
-        /// A commitment to one plan for the whole episode.
+        /// A single decision, with a plan for the whole episode.
         All = "all",
     }
 }
@@ -37,9 +37,9 @@ const DECISION: Budget = Budget(200);
 const CALLS: u64 = 100_000;
 
 impl Commitment {
-    /// Runs every planner once for each commitment, from shortest to longest, until none of them wins. On a
-    /// deterministic level, another observation does not change a plan, so a single round of episodes is enough. Cost:
-    /// at most 2.1 million forward-model calls.
+    /// Runs every planner once for each commitment (number of actions per decision), from shortest to longest, until
+    /// none of them wins. On a deterministic level, another observation does not change a plan, so a single round of
+    /// episodes is enough. Cost: at most 2.1 million forward-model calls.
     pub(super) fn of(analysis: &Analysis, level: &Level, win: &Episode, seed: Seed) -> Commitment {
         let game = analysis.game();
         let is_certain = analysis.is_deterministic_from(&game.start(level, seed));

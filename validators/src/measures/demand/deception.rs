@@ -1,4 +1,4 @@
-//! Players that go for nearby goals, and the distance by which these goals lead them away from the win.
+//! Greedy players, which go for nearby goals, and the distance by which these goals lead them away from the win.
 
 use super::patience;
 use super::route::{Route, avatar_cell};

@@ -1,4 +1,4 @@
-//! Measures of a level's demands on a player, and the tier derived from them.
+//! Measures of a level's demands on a player, and the tier (difficulty class) derived from them.
 
 mod commitment;
 mod dead_ends;
@@ -33,7 +33,7 @@ pub struct Demand {
     pub pushes: usize,
     /// `true` if the win is proven to be the shortest.
     pub shortest: bool,
-    /// The longest commitment with which a planner still wins.
+    /// The longest commitment (number of actions per decision) with which a planner still wins.
     pub commitment: Commitment,
     /// The dead ends near the win, or `None` for a stochastic level, on which no search can prove dead ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -73,7 +73,7 @@ impl Demand {
         })
     }
 
-    /// Returns the level's tier.
+    /// Returns the level's tier, which is a difficulty class.
     pub fn tier(&self) -> Tier {
         Tier::of(self)
     }

@@ -10,7 +10,8 @@ const PLANNERS: [&str; 3] = ["width", "guided-mcts", "olets"];
 const PLAYS: u64 = 6;
 /// The number of forward-model calls per decision.
 const DECISION: Budget = Budget(2000);
-/// The minimum length, in ticks, of a known win at which a shorter win might put the level in a different tier.
+/// The minimum length, in ticks, of a known win at which a shorter win might put the level in a different tier
+/// (difficulty class).
 const LEAST: usize = 20;
 
 /// Searches for a win with fewer ticks than a known win in a stochastic game. In such a game, no search can prove

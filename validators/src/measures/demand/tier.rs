@@ -4,7 +4,7 @@ use super::{Commitment, Demand};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A level's tier: a documented function of its [`Demand`] ([`TIERS`]).
+/// A level's tier, which is a difficulty class: a documented function of its [`Demand`] ([`TIERS`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "u8", into = "u8")]
 pub enum Tier {
@@ -18,7 +18,7 @@ pub enum Tier {
     Four = 4,
 }
 
-/// The minimum demands of a level in a tier.
+/// The minimum demands of a level in a tier (difficulty class).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TierBounds {
     /// The tier with these bounds.
@@ -29,7 +29,7 @@ pub struct TierBounds {
     pub traps: usize,
 }
 
-/// The minimum demands of each tier. A level belongs to the highest tier whose demands it meets.
+/// The minimum demands of each tier (difficulty class). A level belongs to the highest tier whose demands it meets.
 pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::One, decisions: 0, traps: 0 },
     TierBounds { tier: Tier::Two, decisions: 20, traps: 1 },
@@ -37,13 +37,13 @@ pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::Four, decisions: 120, traps: 3 },
 ];
 
-/// The longest commitment at which foresight counts as a trap.
+/// The longest number of actions per decision at which the need to foresee counts as a trap.
 const FORESIGHT: Commitment = Commitment::Five;
-/// The minimum fraction of dead ends, among the states near the win, for the dead ends to count as a trap.
+/// The minimum fraction of dead ends, among the states near the win, at which dead ends count as a trap.
 const DEAD_ENDS: f64 = 0.03;
-/// The minimum number of self-moving sprites next to the route for the sprites to count as a trap.
+/// The minimum number of self-moving sprites next to the route at which the sprites count as a trap.
 const MOVERS: usize = 3;
-/// The minimum fraction of episodes that greedy players must lose for the losses to count as a trap.
+/// The minimum fraction of episodes that greedy players must lose for greed to count as a trap.
 const LOSSES: f64 = 0.75;
 
 impl Demand {

@@ -197,7 +197,7 @@ fn rounded(figure: f64) -> String {
 
 fn ladder(rungs: &[RungDifference], console: &Console) {
     if rungs.is_empty() {
-        console.say("\nwin rates: no ladder player played both releases");
+        console.say("\nwin rates: no reference player played both releases");
         return;
     }
     console
@@ -217,7 +217,8 @@ fn ladder(rungs: &[RungDifference], console: &Console) {
     }
 }
 
-/// Lists the differences in marks by tier, with the overall differences last.
+/// Lists the differences in the results of reference players by tier (difficulty class), with the overall differences
+/// last.
 fn marked(marks: &[MarkDifference], console: &Console) {
     if marks.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! `arcade merge`: merges a release's shards.
+//! `arcade merge`: merges a release's shards, which are its separately minted parts.
 
 use crate::console::Console;
 use crate::failure::Answer;

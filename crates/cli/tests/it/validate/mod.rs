@@ -322,7 +322,7 @@ fn a_swapped_rule_is_named_with_its_repair() {
 
 #[test]
 fn no_verdict_contradicts_another() {
-    // The search wins the level, but no player of the ladder does. Both facts are reported.
+    // The search wins the level, but no reference player on the ladder does. Both facts are reported.
     let folder = folder(GAME, LEVEL);
     let said = text(&run(folder.path(), &["validate", "."], 0).stdout);
     assert!(said.contains("the witness wins in ") && said.contains("proven minimal"), "{said}");

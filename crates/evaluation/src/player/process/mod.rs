@@ -85,7 +85,7 @@ pub struct Process {
     config: ProcessConfig,
     running: Option<Running>,
     notices: Notices,
-    /// The track, which determines the information sent to the process.
+    /// The track (bundle of prompt settings), which determines the information sent to the process.
     track: Track,
     /// `true` if the process has received the `hello` message for this level.
     is_greeted: bool,
@@ -130,8 +130,8 @@ impl Process {
         self
     }
 
-    /// Sets the track. On [`Track::Discover`], the process plays all levels in a series, and must make
-    /// predictions at the end.
+    /// Sets the track (bundle of prompt settings). On [`Track::Discover`], the process plays all levels in a series,
+    /// and must make predictions at the end.
     #[must_use]
     pub fn on_track(mut self, track: Track) -> Process {
         self.track = track;

@@ -1,5 +1,5 @@
-//! Compares pairs of players: different models, one model in both modes, or one model with and without an
-//! aid.
+//! Compares pairs of players: different models, one model in both modes, or one model with and without an aid (an
+//! optional part of the prompt).
 
 use crate::study::episodes::scores::{Estimate, StudyEpisode, observations};
 use crate::study::players::player::{CONTEXTUAL, ZERO_SHOT};
@@ -145,9 +145,9 @@ impl Contrasts {
         contrasts
     }
 
-    /// Compares models in the same mode with each other, and with players that are not models. A model is
-    /// also compared with itself under different conditions. [`Contrasts::modes`] and [`Contrasts::aids`]
-    /// compare a model's modes and aids.
+    /// Compares models in the same mode with each other, and with players that are not models. A model is also compared
+    /// with itself under different conditions. [`Contrasts::modes`] and [`Contrasts::aids`] compare a model's modes and
+    /// aids (optional parts of the prompt).
     pub(crate) fn pairs(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.tuple_combinations().filter(|((_, ours), (_, theirs))| {
@@ -175,15 +175,16 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// Compares each model without and with an aid, in the same mode. The variant without the aid comes
-    /// first.
+    /// Compares each model without and with an aid (an optional part of the prompt), in the same mode. The variant
+    /// without the aid comes first.
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {
             let of = |player: &crate::study::Player| {
                 (player.name.clone(), player.mode.clone(), player.conditions.clone())
             };
-            // A track is not an aid, so the results of different tracks stay separate.
+            // A track (a bundle of settings) is not an aid (a single optional part of the prompt), so the results of
+            // different tracks stay separate.
             let same = of(without) == of(with) && without.track() == with.track();
             let more = with.aids.len() == without.aids.len() + 1;
             same && more && without.aids.iter().all(|aid| with.aids.contains(aid))

@@ -22,7 +22,7 @@ pub struct PredictionRow {
     pub insight: Option<f64>,
 }
 
-/// Returns one row per player with predictions, highest insight first.
+/// Returns one row per player with predictions, sorted by descending insight (agreement with the rules).
 pub(in crate::study) fn rows(study: &Study) -> Vec<PredictionRow> {
     let row = |(number, player): (usize, &Player)| {
         let ended = study.on(number, None, None).iter().filter(|episode| episode.metrics.counts());

@@ -8,11 +8,11 @@ use serde::Serialize;
 use statistics::{Z95, rate_over_games, wilson};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A player's results with one commitment on those levels of a tier that have reference results. The player
-/// is either a reference player or a player in the study.
+/// A player's results with one commitment (number of actions per decision) on the levels of one tier (difficulty
+/// class). Only levels with reference results count. The player is either a reference player or a player in the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MarkRow {
-    /// The tier of the levels.
+    /// The tier (difficulty class) of the levels.
     pub tier: u8,
     /// The number of actions that the player commits to at each decision, or `all`.
     pub commit: String,
@@ -34,7 +34,7 @@ pub struct MarkRow {
 /// The number of wins and the number of episodes, by game index and level index.
 type Counts = BTreeMap<(usize, usize), (u64, u64)>;
 
-/// Returns the rows, sorted by tier, commitment and win rate.
+/// Returns the rows, sorted by tier (difficulty class), commitment (actions per decision) and win rate.
 pub(in crate::study) fn rows(study: &Study) -> Vec<MarkRow> {
     let mut found: BTreeMap<(u8, Commitment, bool, String), Counts> = BTreeMap::new();
     let mut tiers: BTreeMap<(usize, usize), u8> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Recognises a game's left-right mirror image (`docs/how-to/twins.md`).
+//! Recognises the left-right mirror image of a game (`docs/how-to/twins.md`).
 
 use crate::mask;
 use engine::syntax::SpriteLine;

@@ -1,5 +1,5 @@
-//! Players' horizons. A player's horizon is the commitment at which the player still wins half of its
-//! episodes.
+//! Players' horizons. A player's horizon is the commitment (the number of actions per decision) at which the player
+//! still wins half of its episodes.
 
 use crate::study::episodes::scores::Estimate;
 use crate::study::{Player, Study, StudyEpisode};
@@ -13,7 +13,8 @@ use std::collections::BTreeMap;
 const RESAMPLES: usize = 1000;
 
 base::named_enum! {
-    /// The kind of games on which a horizon is measured, according to what a player must foresee.
+    /// The kind of games on which a horizon is measured, according to what a player must foresee. A horizon is the
+    /// number of actions per decision at which a player still wins half of its episodes.
     pub enum Foresight {
         /// Deterministic games, in which the future follows from the rules.
         Exact = "deterministic",
@@ -24,30 +25,32 @@ base::named_enum! {
     }
 }
 
-/// A player's horizon: the commitment at which the player still wins half of its episodes.
+/// A player's horizon: the commitment (the number of actions per decision) at which the player still wins half of its
+/// episodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HorizonRow {
-    /// The player, without its commitment.
+    /// The player, without its commitment (its number of actions per decision).
     pub player: Player,
-    /// The kind of games on which the horizon is measured.
+    /// The kind of games on which the horizon (the longest successful number of actions per decision) is measured.
     pub games: Foresight,
-    /// The win rates, sorted by ascending commitment.
+    /// The win rates, sorted by ascending commitment (number of actions per decision).
     pub rates: Vec<CommitmentRate>,
-    /// The horizon in ticks, with its interval over games.
+    /// The horizon in ticks, with its interval over games. It is the number of actions per decision at which half of
+    /// the episodes are won.
     pub horizon: Option<Estimate>,
-    /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest
-    /// effective commitment, but at least one tick. The highest is four times the largest effective
-    /// commitment.
+    /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest effective
+    /// commitment (number of actions per decision), but at least one tick. The highest is four times the largest
+    /// effective commitment.
     pub range: [f64; 2],
 }
 
-/// A player's win rate with one commitment.
+/// A player's win rate with one commitment (number of actions per decision).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CommitmentRate {
-    /// The commitment as written in results: a number, or `all`.
+    /// The commitment (number of actions per decision) as written in results: a number, or `all`.
     pub commit: String,
-    /// The mean effective commitment, in ticks. The effective commitment is capped at the length of the
-    /// level's shortest known win.
+    /// The mean effective commitment, in ticks: the number of actions per decision, capped at the length of the level's
+    /// shortest known win.
     pub ticks: f64,
     /// The win rate with its interval.
     pub rate: Option<Estimate>,
@@ -56,13 +59,13 @@ pub struct CommitmentRate {
 }
 
 impl HorizonRow {
-    /// Formats the horizon, such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is formatted
-    /// as `–`.
+    /// Formats the horizon (a number of ticks), such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is
+    /// formatted as `–`.
     pub fn told_value(&self) -> String {
         self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
     }
 
-    /// Formats the interval of the horizon, or a single bound if both ends are equal.
+    /// Formats the interval of the horizon (a number of ticks), or a single bound if both ends are equal.
     pub fn told_interval(&self) -> String {
         self.horizon.map_or(String::new(), |found| {
             let [low, high] = [found.low, found.high].map(|end| self.bounded(end));
@@ -93,8 +96,8 @@ impl HorizonRow {
     }
 }
 
-/// Returns the rows of players with several commitments, one per kind of game. Rows are sorted by kind, and
-/// then by descending horizon.
+/// Returns the rows of players with results for several commitments (numbers of actions per decision), one per kind of
+/// game. Rows are sorted by kind, and then by descending horizon.
 pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
     let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
     for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
@@ -148,7 +151,7 @@ fn row(
     episodes: &[&StudyEpisode],
     shortest: &BTreeMap<(usize, usize), u64>,
 ) -> HorizonRow {
-    // A commitment longer than the shortest win is effectively a commitment to the length of that win.
+    // If a decision has more actions than the shortest win, only as many actions as that win has can matter.
     let ticks = |episode: &StudyEpisode| {
         let metrics = &episode.metrics;
         let known = shortest.get(&(episode.game, metrics.level)).copied().unwrap_or(u64::MAX);
@@ -188,7 +191,7 @@ fn row(
     HorizonRow { player, games, rates: rates.collect(), horizon, range }
 }
 
-/// Returns the horizons table, or `None` if no player has several commitments.
+/// Returns the table of horizons, or `None` if no player has results for several numbers of actions per decision.
 pub(in crate::study) fn table(study: &Study) -> Option<Table> {
     if study.horizons.is_empty() {
         return None;

@@ -8,7 +8,7 @@ use itertools::Itertools;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One person's episodes in a results folder.
+/// The episodes of one person (a player with its settings) in a results folder.
 pub(crate) struct PersonResults {
     player: Player,
     /// All settings that determine requests and answers, by their JSON path (for example,
@@ -19,13 +19,13 @@ pub(crate) struct PersonResults {
 
 /// The path to the model's served version in the facts.
 const SERVED: &str = "served by";
-/// The path to the games' surface in the facts. The surface describes how the games differ from their twins
-/// in an earlier folder.
+/// The path to the games' surface in the facts. The surface (names, characters or orientation) distinguishes the games
+/// from the games with the same rules in an earlier folder.
 const TWIN: &str = "games";
 
 impl PersonResults {
-    /// Splits the episodes in a results folder by the model versions that answered. If the games are twins of
-    /// games in an earlier folder, `surface` states the difference.
+    /// Splits the episodes in a results folder by the model versions that answered. If the games have the same rules as
+    /// games in an earlier folder but a different surface, `surface` states the difference.
     pub(crate) fn of(
         entrant: &Entrant,
         surface: Option<&str>,
@@ -33,7 +33,7 @@ impl PersonResults {
     ) -> Vec<PersonResults> {
         let mut facts = BTreeMap::new();
         flatten("", &entrant.details, &mut facts);
-        // The same model on a different server counts as the same person.
+        // The same model on a different server counts as the same person (player).
         facts.retain(|path, _| path != "model.server" && !path.starts_with("model.server."));
         if let Some(surface) = surface {
             facts.insert(TWIN.to_owned(), surface.to_owned());

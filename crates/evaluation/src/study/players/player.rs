@@ -13,9 +13,9 @@ pub struct Player {
     pub mode: Option<String>,
     /// The differences between the player's prompts and the default prompts, as sorted flags.
     pub aids: Vec<String>,
-    /// The settings that distinguish the player from other players with the same name, mode and aids. Each
-    /// setting is a phrase such as `temperature 0` or `served by m-2026-08`, and the phrases are sorted. The
-    /// list is empty if there are no such players.
+    /// The settings that distinguish the player from other players with the same name, mode and aids (optional parts of
+    /// the prompt). Each setting is a phrase such as `temperature 0` or `served by m-2026-08`, and the phrases are
+    /// sorted. The list is empty if there are no such players.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub conditions: Vec<String>,
 }
@@ -31,7 +31,7 @@ impl Player {
         Player { name: name.to_owned(), mode: None, aids: Vec::new(), conditions: Vec::new() }
     }
 
-    /// Creates a model player in a given mode, without aids.
+    /// Creates a model player in a given mode, without aids (optional parts of the prompt).
     pub fn model(name: &str, mode: &str) -> Player {
         Player { mode: Some(mode.to_owned()), ..Player::reference(name) }
     }
@@ -49,14 +49,14 @@ impl Player {
         self.mode.is_none() && !examined
     }
 
-    /// Returns the track with its version, such as `masked@1`. Returns `None` for players with custom
-    /// prompts, and for players that read no prompts.
+    /// Returns the track (bundle of prompt settings) with its version, such as `masked@1`. Returns `None` for players
+    /// with custom prompts, and for players that read no prompts.
     pub fn track(&self) -> Option<&str> {
         self.aids.iter().find_map(|aid| aid.strip_prefix(track::AID))
     }
 
-    /// Returns `true` if the results of the two players can be compared: the players are on the same track,
-    /// or one of them is a baseline that reads no prompts.
+    /// Returns `true` if the results of the two players can be compared: the players have the same track (bundle of
+    /// prompt settings), or one of them is a baseline that reads no prompts.
     pub fn is_comparable(&self, other: &Player) -> bool {
         let is_free = |player: &Player| player.track().is_none() && player.is_reference();
         self.track() == other.track() || is_free(self) || is_free(other)
@@ -80,7 +80,8 @@ impl Player {
         report::visible(&label).into_owned()
     }
 
-    /// Returns the name with aids and conditions, for tables that show the mode elsewhere.
+    /// Returns the name with aids (optional parts of the prompt) and conditions, for tables that show the mode
+    /// elsewhere.
     pub fn short_label(&self) -> String {
         Player { mode: None, ..self.clone() }.label()
     }

@@ -1,10 +1,11 @@
-//! The reference examinee, which induces rules from the recordings by trying changes.
+//! The reference player for examinations in building world models. It induces rules from the recordings by trying
+//! changes.
 //!
-//! The examinee begins with a game in which nothing happens, except that the player loses if its sprite disappears. It
+//! The player begins with a game in which nothing happens, except that the episode is lost if the avatar disappears. It
 //! looks at the earliest deviation of an episode, and tries all classes, rules and terminations for the sprite types
 //! near that deviation. It keeps the change that explains the most transitions before the first deviations. Ties are
 //! broken by the fewest differences at the first deviations, and then by the fewest words. The search stops if no
-//! single change is an improvement. Like any examinee, it uses only the question's content.
+//! single change is an improvement. Like any examined player, it uses only the question's content.
 
 mod changes;
 mod clues;
@@ -58,7 +59,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Returns the first guess: nothing happens, except that the player loses if its sprite disappears.
+    /// Returns the first guess: nothing happens, except that the episode is lost if the avatar disappears.
     fn first(&self) -> Guess {
         let task = self.task;
         let shown = shown(task);

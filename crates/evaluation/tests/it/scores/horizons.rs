@@ -1,4 +1,5 @@
-//! Tests of horizons, using players' episodes at several commitments.
+//! Tests of horizons (the number of actions per decision at which a player still wins half of its episodes), using
+//! players' episodes at several such numbers.
 
 use super::episode;
 use engine::Outcome::{Lost, Won};

@@ -69,7 +69,7 @@ pub struct LevelEntry {
     pub rows: u64,
     /// The number of ticks in the shortest win found.
     pub ticks: Option<u64>,
-    /// The ease measured by the ladder, from 0 to 1.
+    /// The ease measured by the ladder (reference players of increasing strength), from 0 to 1.
     pub ease: Option<f64>,
     /// The difficulty label for the ease.
     pub label: Option<Difficulty>,

@@ -1,7 +1,7 @@
 //! The report on a set of games, covering each game and the set as a whole. It has the same form for every generator.
 //!
-//! The report is a pure function of the games and their verdicts, so the same input produces the same bytes. The
-//! report contains no times or paths. For the meaning of each figure, see `docs/reference/game-report.md`.
+//! The report is a pure function of the games and their verdicts, so the same input produces the same bytes. The report
+//! contains no times or paths. For the meaning of each value, see `docs/reference/game-report.md`.
 
 mod entry;
 mod likeness;
@@ -32,7 +32,7 @@ pub struct GamesSample<'a> {
     pub games: &'a [SurveyedGame],
     /// The named games from which the games in the set should differ; may be empty.
     pub corpus: &'a [(String, Game)],
-    /// The criteria that the panel applied.
+    /// The criteria that the panel of judges applied.
     pub criteria: &'a Criteria,
     /// The cost of generating the games, without the cost of judging them for the report; `None` if the games do not
     /// come from a generator.

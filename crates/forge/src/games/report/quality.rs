@@ -23,7 +23,7 @@ pub(super) fn validity(games: &[SurveyedGame]) -> Section {
 /// The difference between win rates that counts as significant.
 const SURE: f64 = 0.25;
 
-/// Describes the skill required by the games; `None` if no ladder played.
+/// Describes the skill required by the games; `None` if no ladder (reference players of increasing strength) played.
 pub(super) fn skill(measured: &[Measured<'_>]) -> Option<Section> {
     let edges: Vec<&Edge> = measured.iter().filter_map(|game| game.row.edge.as_ref()).collect();
     let held_out = measured.iter().filter_map(|game| game.held_out.as_ref()).map(|edge| edge.points);
@@ -90,7 +90,7 @@ pub(super) fn play(measured: &[Measured<'_>]) -> Section {
 }
 
 /// Describes the difficulty of levels by their position in the game, as a section and as a table; `None` if no ladder
-/// played.
+/// (reference players of increasing strength) played.
 pub(super) fn difficulty(measured: &[Measured<'_>]) -> Option<(Section, Table)> {
     let reports = || measured.iter().map(|game| &game.surveyed.report.levels);
     let most = reports().map(Vec::len).max()?;

@@ -1,4 +1,4 @@
-//! The casts of games. A cast consists of the names of a game's types.
+//! The names of a game's types, compared between games. Two games that share most of them would look alike.
 
 use engine::Game;
 use std::collections::BTreeSet;
@@ -14,13 +14,13 @@ const COMMON: [&str; 5] = ["wall", "avatar", "floor", "ground", "exit"];
 pub struct Cast(BTreeSet<String>);
 
 impl Cast {
-    /// Returns a game's cast.
+    /// Returns the names of a game's types, except common names.
     pub fn of(game: &Game) -> Cast {
         let names = game.sprite_types().map(|stype| game.name(stype).to_owned());
         Cast(names.filter(|name| !COMMON.contains(&name.as_str())).collect())
     }
 
-    /// Returns `true` if most names of the smaller cast also occur in the other cast.
+    /// Returns `true` if most names of the game with fewer names also occur in the other game.
     pub fn is_shared(&self, other: &Cast) -> bool {
         let shared = self.0.intersection(&other.0).count() as f64;
         shared > SHARED * self.0.len().min(other.0.len()) as f64

@@ -9,7 +9,7 @@ use generators::kernels::KernelGenome;
 use std::collections::{BTreeMap, BTreeSet};
 use validators::novelty::GameForm;
 
-/// The games of a set so far. No two games have similar rules or share a title, a cast or an idea.
+/// The games of a set so far. No two games have similar rules or share a title, most of their type names, or an idea.
 #[derive(Default)]
 pub(crate) struct Company {
     forms: Vec<GameForm>,
@@ -17,23 +17,23 @@ pub(crate) struct Company {
     casts: Vec<Cast>,
     /// The patterns of each game.
     patterns: Vec<Vec<String>>,
-    /// The scenes of the games.
+    /// The scenes (themes) of the games.
     pub(crate) scenes: BTreeSet<String>,
-    /// The number of games in each kernel family.
+    /// The number of games in each family of kernels, which are hand-written designs that hardly differ.
     pub(crate) families: Families,
 }
 
-/// The number of games in each kernel family.
+/// The number of games in each family of kernels, which are hand-written designs that hardly differ.
 #[derive(Clone, Default)]
 pub(crate) struct Families(BTreeMap<String, usize>);
 
 impl Families {
-    /// Returns the number of games from a kernel or from any kernel that hardly differs from it.
+    /// Returns the number of games from a kernel (hand-written design), or from any kernel that hardly differs from it.
     pub(crate) fn games_of(&self, kernel: &str) -> usize {
         self.0.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
     }
 
-    /// Counts a game from this kernel.
+    /// Counts a game from this kernel (hand-written design).
     pub(crate) fn count(&mut self, kernel: &str) {
         *self.0.entry(KernelGenome::family(kernel).to_owned()).or_default() += 1;
     }

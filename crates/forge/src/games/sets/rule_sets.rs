@@ -10,7 +10,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 use validators::novelty::GameForm;
 
-/// The number of parameter draws for each form of a kernel, with and without its variants.
+/// The number of parameter draws for each form (variation) of a kernel (hand-written design), with and without its
+/// variants.
 const DRAWS: u64 = 10;
 
 /// The number of attempts to draw new parameters for a game from a set.
@@ -23,33 +24,33 @@ const SMALL: usize = 16;
 /// which few other positions reach.
 const SPARE: usize = 3;
 
-/// The number of times that nouns are drawn for a set in each scene.
+/// The number of times that nouns are drawn for a rule set in each scene (theme).
 const NAMINGS: u64 = 6;
 
-/// A set of rules: a kernel in one of its forms, with variants and parameters, named with the nouns of a scene. A set
-/// does not fix the levels. Its parameters may still change, as long as the game does not become similar to another
-/// set.
+/// A set of rules: a kernel (hand-written design) in one of its forms, with variants and parameters, named with the
+/// nouns of a scene (theme). A set does not fix the levels. Its parameters may still change, as long as the game does
+/// not become similar to another set.
 #[derive(Clone, Debug)]
 pub(crate) struct RuleSet {
     genome: KernelGenome,
     form: GameForm,
 }
 
-/// Sets of rules, in turn order. Each kernel has one set before any kernel has a second.
+/// Sets of rules, in turn order. Each kernel (hand-written design) has one set before any kernel has a second.
 ///
 /// A position always has the same set, regardless of the number of positions. Only the first set of each kernel is
 /// drawn immediately. Further sets are drawn on demand, because most releases are small.
 #[derive(Clone, Debug)]
 pub struct RuleSets {
     draws: Draws,
-    /// The kernels in turn order. The sets are still unnamed.
+    /// The kernels (hand-written designs) in turn order. The sets are still unnamed.
     kernels: Vec<(&'static str, OnceLock<Vec<RuleSet>>)>,
-    /// The first set of each kernel.
+    /// The first rule set of each kernel (hand-written design).
     opening: Vec<RuleSet>,
     all: OnceLock<Vec<RuleSet>>,
 }
 
-/// The inputs for drawing a kernel's sets.
+/// The inputs for drawing the rule sets of a kernel (hand-written design).
 #[derive(Clone, Debug)]
 struct Draws {
     seed: Seed,
@@ -67,7 +68,7 @@ fn form_of(genome: &KernelGenome) -> Option<GameForm> {
     Some(GameForm::of(&built(genome)?.0))
 }
 
-/// The sets of one kernel found so far.
+/// The rule sets of one kernel (hand-written design) found so far.
 struct OfKernel<'a> {
     known: &'a [GameForm],
     sets: Vec<RuleSet>,
@@ -85,8 +86,8 @@ impl OfKernel<'_> {
 }
 
 impl Draws {
-    /// Returns a kernel's seed, and one game for each of its forms, in the order in which the forms are turned into
-    /// sets.
+    /// Returns a kernel's seed, and one game for each of its forms (variations), in the order in which the forms are
+    /// turned into rule sets.
     fn of_kernel(&self, kernel: &str) -> (Seed, Vec<KernelGenome>) {
         let seed = self.seed.child("kernel", 0).child(kernel, 0);
         let mut all = KernelGenome::all_of(kernel);
@@ -110,22 +111,23 @@ impl Draws {
         }
     }
 
-    /// Returns a kernel's first set; `None` if all of the kernel's sets are near known games.
+    /// Returns the first rule set of a kernel (hand-written design); `None` if all of the kernel's sets are near known
+    /// games.
     fn first(&self, kernel: &str) -> Option<RuleSet> {
         let mut first = OfKernel { known: &self.known, sets: Vec::new() };
         self.fill(&mut first, &self.of_kernel(kernel), 1);
         first.sets.pop()
     }
 
-    /// Returns all of a kernel's sets.
+    /// Returns all rule sets of a kernel (hand-written design).
     fn all(&self, kernel: &str) -> Vec<RuleSet> {
         let mut sets = OfKernel { known: &self.known, sets: Vec::new() };
         self.fill(&mut sets, &self.of_kernel(kernel), usize::MAX);
         sets.sets
     }
 
-    /// Returns the sets with their own names. No two sets share a title or most of a cast, and the scenes take turns.
-    /// Sets for which no names are left are dropped.
+    /// Returns the sets with their own names. No two sets share a title or most of their type names, and the scenes
+    /// (themes) take turns. Sets for which no names are left are dropped.
     fn named(&self, sets: Vec<RuleSet>) -> Vec<RuleSet> {
         let seed = self.seed.child("names", 0).child("sets", 0);
         let mut given = Given::default();
@@ -135,7 +137,7 @@ impl Draws {
 }
 
 impl RuleSets {
-    /// Draws the sets of the given kinds, except those near a `known` game. Costs about a millisecond per set
+    /// Draws the rule sets of the given kinds, except those near a `known` game. Costs about a millisecond per set
     /// considered and per naming tried. There are about 100 such steps for the first sets of all kernels, and about 900
     /// for the other sets, which are drawn on demand.
     pub fn draw(kinds: &[Kind], known: &[GameForm], seed: Seed) -> RuleSets {
@@ -147,8 +149,8 @@ impl RuleSets {
         RuleSets { draws, kernels, opening, all: OnceLock::new() }
     }
 
-    /// Returns the number of sets of the given kinds that minting can rely on, whatever the seed. Counts the sets from
-    /// one parameter draw that are not near a `known` game or a game from an `earlier` release. Costs about a
+    /// Returns the number of rule sets of the given kinds that minting can rely on, whatever the seed. Counts the sets
+    /// from one parameter draw that are not near a `known` game or a game from an `earlier` release. Costs about a
     /// millisecond per kernel form.
     pub fn supply(kinds: &[Kind], known: &[GameForm], earlier: &[GameForm]) -> usize {
         let draws = Draws { seed: Seed::from_text("supply"), known: known.to_vec() };
@@ -162,7 +164,7 @@ impl RuleSets {
         all.filter(|set| !earlier.iter().any(|game| set.form.is_near(game))).count()
     }
 
-    /// Returns all sets, starting with the first set of each kernel.
+    /// Returns all rule sets, starting with the first set of each kernel (hand-written design).
     fn all(&self) -> &[RuleSet] {
         self.all.get_or_init(|| {
             let of_kernels = self.kernels.iter().map(|of_kernel| self.of_kernel(of_kernel).to_vec());
@@ -170,7 +172,7 @@ impl RuleSets {
         })
     }
 
-    /// Returns all of one kernel's sets.
+    /// Returns all rule sets of one kernel (hand-written design).
     fn of_kernel<'a>(&self, (kernel, sets): &'a (&'static str, OnceLock<Vec<RuleSet>>)) -> &'a [RuleSet] {
         sets.get_or_init(|| self.draws.all(kernel))
     }
@@ -197,7 +199,7 @@ impl RuleSets {
         drawn.find(|genome| self.is_of(genome, set)).unwrap_or_else(|| set.genome.clone())
     }
 
-    /// Returns `true` if a game has a set's kernel and is not near any other set of that kernel.
+    /// Returns `true` if a game has the kernel of a rule set and is not near any other set of that kernel.
     fn is_of(&self, genome: &KernelGenome, own: &RuleSet) -> bool {
         let kernel = self.kernels.iter().find(|(kernel, _)| *kernel == genome.kernel());
         let sets = kernel.into_iter().flat_map(|of_kernel| self.of_kernel(of_kernel));
@@ -213,7 +215,7 @@ struct Given {
     titles: BTreeSet<String>,
     casts: Vec<Cast>,
     scenes: BTreeMap<&'static str, usize>,
-    /// The pairs of kernel and scene that are already in use.
+    /// The pairs of kernel (hand-written design) and scene (theme) that are already in use.
     of_kernels: BTreeSet<(String, &'static str)>,
 }
 
@@ -238,7 +240,8 @@ impl Given {
         Some(RuleSet { genome, ..set })
     }
 
-    /// Returns a game with its title and its cast, if no other set has the title or shares the cast.
+    /// Returns a game with its title and the names of its types, if no other set has the title or shares most of the
+    /// names.
     fn free(&self, genome: KernelGenome) -> Option<(KernelGenome, String, Cast)> {
         let (game, title) = built(&genome)?;
         let cast = Cast::of(&game);
@@ -247,7 +250,7 @@ impl Given {
     }
 }
 
-/// Orders the kernels' sets in rounds. Each kernel contributes one set per round, as long as it has sets left.
+/// Orders the kernels' rule sets in rounds. Each kernel contributes one set per round, as long as it has sets left.
 fn in_turn(of_kernels: Vec<Vec<RuleSet>>) -> Vec<RuleSet> {
     let mut left: Vec<_> = of_kernels.into_iter().map(Vec::into_iter).collect();
     let mut all = Vec::new();

@@ -6,8 +6,8 @@ use report::{Section, Share, Table, TableCell, Value};
 use serde::Serialize;
 use validators::Difficulty;
 
-/// The minimum fraction of levels with a label in an unconstrained pool. Below this fraction, the game counts as unable
-/// to express the label.
+/// The minimum fraction of levels with a label among levels without a requested difficulty. Below this fraction, the
+/// game counts as unable to express the label.
 const EXPRESSIBLE: f64 = 0.05;
 
 /// The index of the requested label and the index of the measured label.
@@ -20,14 +20,17 @@ struct Hits {
     exact: Share,
     /// The fraction of levels with the requested or a neighbouring label.
     within_one: Share,
-    /// The expected value of `exact` if each level were picked from the pool at random; `None` without a pool.
+    /// The expected value of `exact` if each level were picked at random from the pool, which contains levels without a
+    /// requested difficulty. `None` without a pool.
     random_exact: Option<f64>,
-    /// The expected value of `within_one` if each level were picked from the pool at random; `None` without a pool.
+    /// The expected value of `within_one` if each level were picked at random from the pool, which contains levels
+    /// without a requested difficulty. `None` without a pool.
     random_within_one: Option<f64>,
 }
 
-/// Compares the requested and the measured difficulty, as a section and as a table; `None` if no difficulty was
-/// requested, or if no ladder played. Levels that could not be measured because no win is known count as misses.
+/// Compares the requested and the measured difficulty, as a section and as a table. Returns `None` if no difficulty was
+/// requested, or if no ladder (reference players of increasing strength) played. Levels that could not be measured
+/// because no win is known count as misses.
 pub(super) fn control(levels: &[SurveyedLevel], pool: &[Difficulty]) -> Option<(Section, Table)> {
     let asked = |level: &SurveyedLevel| Some((rank(level.asked?), level.label().map(rank)));
     let pairs: Vec<Asked> = levels.iter().filter_map(asked).collect();

@@ -1,7 +1,7 @@
 //! The report on a set of levels, covering each level and the set as a whole. It has the same form for every generator.
 //!
 //! The report is a pure function of the levels and their verdicts, so the same input produces the same bytes. The
-//! report contains no times or paths. For the meaning of each figure, with its formula and source, see
+//! report contains no times or paths. For the meaning of each value, with its formula and source, see
 //! `docs/how-to/generate-levels.md`.
 
 mod control;

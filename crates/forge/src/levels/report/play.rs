@@ -139,7 +139,7 @@ pub(super) fn lengths(levels: &[SurveyedLevel]) -> Section {
         .quantiles("pushes", "pushes of the witness", &pushes)
 }
 
-/// Describes the skill required by the levels; `None` if no ladder played.
+/// Describes the skill required by the levels; `None` if no ladder (reference players of increasing strength) played.
 pub(super) fn skill(levels: &[SurveyedLevel]) -> Option<Section> {
     let gaps = || levels.iter().filter_map(|level| level.measures.as_ref()?.skill);
     let wins: Vec<f64> = gaps().map(|gap| gap.wins).collect();

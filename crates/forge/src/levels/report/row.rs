@@ -26,7 +26,7 @@ pub struct LevelRow {
     pub asked: Option<Difficulty>,
     /// The measured difficulty; `None` if it was not measured.
     pub label: Option<Difficulty>,
-    /// The ease measured by the ladder, from 0 to 1.
+    /// The ease measured by the ladder (reference players of increasing strength), from 0 to 1.
     pub ease: Option<f64>,
     /// The number of ticks in the shortest win, if the win is proved to be the shortest.
     pub shortest: Option<u64>,

@@ -168,7 +168,8 @@ fn asked_labels_stand_beside_random_picking() {
     assert_eq!(control["expressible"], json!([Difficulty::Easy, Difficulty::Medium, Difficulty::VeryHard]));
     let all = &control["all"];
     assert_eq!((counts(&all["exact"]), counts(&all["within_one"])[0]), ([1, 3], 3));
-    // In the pool, 4, 2, 1 and 1 levels have the label, and 3, 3 and 1 levels have the label or a neighbouring one.
+    // In the pool of levels without a requested difficulty, 4, 2, 1 and 1 levels have the label, and 3, 3 and 1 levels
+    // have the label or a neighbouring one.
     let close = |key: &str, expect: f64| (all[key].as_f64().unwrap() - expect).abs() < 1e-12;
     assert!(close("random_exact", 1.0 / 3.0) && close("random_within_one", 7.0 / 12.0));
     let asked = report.set.tables.iter().find(|table| table.id == "asked").unwrap();
@@ -239,7 +240,8 @@ fn a_survey_is_the_same_on_any_number_of_threads_and_for_a_level_alone() {
     assert_eq!(both, judge(3, &levels));
     let alone = judge(2, &levels[..1]);
     assert_eq!(LevelRow { nearest: None, ..both.levels[0].clone() }, alone.levels[0]);
-    // A level that fails a criterion is still judged by the others, and the ladder still gives it a label.
+    // A level that fails a criterion is still judged by the others, and the reference players still determine its
+    // difficulty label.
     assert!(both.levels[0].passes && !both.levels[1].passes && both.levels[1].solved == "solved");
     assert!(both.set.figure("control", "exact").is_some());
     assert!(both.levels[0].measures.contains_key("openness"));

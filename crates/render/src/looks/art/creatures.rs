@@ -51,7 +51,7 @@ pub(crate) fn craft(art: &mut Art) {
     }
 }
 
-/// Draws the mark where the player died.
+/// Draws the sign that shows where the player died.
 pub(crate) fn fallen(art: &mut Art) {
     ring(art);
     art.solid(Outline::rounded(0.43, 0.18, 0.14, 0.66, 0.03), art.main());

@@ -1,4 +1,4 @@
-//! Draws the figures and marks from the table in [`crate::looks::figure`].
+//! Draws the figures (drawings of nouns) and marks (signs for states) from the table in [`crate::looks::figure`].
 
 use super::Art;
 use super::creatures::{ring_of_avatar, teeth};
@@ -27,7 +27,7 @@ pub(crate) fn draw(art: &mut Art, figure: &Figure) {
     signs(art, figure);
 }
 
-/// Adds the mark with the given index, which shows a state.
+/// Adds the mark (the sign for a state) with the given index in the table of figures.
 pub(crate) fn mark(art: &mut Art, at: u16) {
     figure::mark(at).iter().for_each(|part| add(art, part));
 }

@@ -23,7 +23,7 @@ const GOLD: Colour = Colour([0xff, 0xd2, 0x3f]);
 /// The default width of an outline, in tiles.
 const RIM: f32 = 0.045;
 
-/// Returns the tile for a look, with its front in the direction of the unit vector `facing`. `facing` has no effect
+/// Returns the tile for a [`Look`], with its front in the direction of the unit vector `facing`. `facing` has no effect
 /// on looks without a front.
 pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
     let mut art = Art { look, facing, shapes: Vec::new() };

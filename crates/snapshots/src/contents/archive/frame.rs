@@ -1,8 +1,9 @@
-//! The container of an archive: one zstd frame, whose header bounds its size before decompression, and a seal.
+//! The container of an archive: one zstd frame, whose header bounds its size before decompression, and a seal, which is
+//! a hash of the frame.
 //!
-//! Some bits of compressed data can be flipped without changing the content. To detect every flipped bit, the
-//! frame is followed by a skippable frame (RFC 8878 §3.1.2) with the BLAKE3 hash of the preceding bytes. Every
-//! zstd reader ignores the skippable frame.
+//! Some bits of compressed data can be flipped without changing the content. To detect every flipped bit, the frame is
+//! followed by a skippable frame (RFC 8878 §3.1.2) with the BLAKE3 hash of the preceding bytes. Every zstd reader
+//! ignores the skippable frame.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -44,12 +45,12 @@ fn head(path: &Path) -> Result<Vec<u8>, SnapshotError> {
     Ok(head)
 }
 
-/// The first bytes of the seal: the magic number of a skippable frame and the frame's length, 32 bytes.
+/// The first bytes of the hash that follows the frame: the magic number of a skippable frame and its length, 32 bytes.
 const SEAL: [u8; 8] = [0x50, 0x2a, 0x4d, 0x18, 32, 0, 0, 0];
-/// The length of the seal in bytes.
+/// The length of the hash that follows the frame, including its header, in bytes.
 const SEAL_LENGTH: usize = SEAL.len() + 32;
 
-/// Returns `true` if the regular file at `path` ends with a seal, valid or not.
+/// Returns `true` if the regular file at `path` ends with a hash of its content (a seal), valid or not.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -102,7 +103,7 @@ impl<'a> FrameWriter<'a> {
         self.encoder.write_all(bytes)
     }
 
-    /// Ends the frame and seals the file.
+    /// Ends the frame and appends the hash of the preceding bytes.
     pub(super) fn seal(self) -> io::Result<()> {
         let Hashed { inner, hasher } = self.encoder.finish()?;
         inner.write_all(&SEAL)?;

@@ -65,7 +65,7 @@ pub struct Packed {
     pub unpacked: u64,
     /// The size of the file, in bytes.
     pub size: u64,
-    /// The number of papers stored with the release. Papers are not packed.
+    /// The number of papers (documents such as the licence) stored with the release. Papers are not packed.
     pub papers: usize,
 }
 
@@ -286,9 +286,9 @@ pub(crate) fn is_called_archive(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ARCHIVE_END))
 }
 
-/// Returns `true` if the regular file at `path` is not a release archive, not even a damaged one. Such a file has no
-/// seal, and its first entry is not a manifest. If the first entry cannot be decompressed, the file must also lack
-/// the frame header of an archive.
+/// Returns `true` if the regular file at `path` is not a release archive, not even a damaged one. Such a file does not
+/// end with a hash of its content, and its first entry is not a manifest. If the first entry cannot be decompressed,
+/// the file must also lack the frame header of an archive.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.

@@ -70,7 +70,7 @@ pub struct Manifest {
     pub parent: Option<Digest>,
     /// The GUID in every file that can contain one: see [`canary`](crate::canary()).
     pub canary: String,
-    /// BLAKE3(seed ‖ nonce) of a sealed release; `None` for an open release.
+    /// BLAKE3(seed ‖ nonce), the commitment to the secret of a sealed release; `None` for an open release.
     pub commitment: Option<Digest>,
     /// The digest of the minting binary's `Cargo.lock`. Records provenance only, and is not covered by the root.
     pub lockfile: Digest,

@@ -22,8 +22,7 @@ pub struct Withheld {
 /// A part of the withheld files. Each part is revealed as a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HeldPart {
-    /// The wins selected by coin tosses for publication. A coin toss is a secret random decision about which of two
-    /// equal items is published.
+    /// The wins selected for early publication. For each level, a secret random choice selects one of two wins.
     Solutions,
     /// All other withheld files.
     Rest,
@@ -74,7 +73,7 @@ impl Withheld {
 pub enum Reveal {
     /// All withheld files are revealed.
     All,
-    /// The wins selected by coin tosses are revealed. The other wins, the siblings, the reference results and the
-    /// secret stay withheld.
+    /// Reveals only the wins that were selected at random for early publication. The other wins, the withheld copies of
+    /// games, the reference results and the secret stay withheld.
     Solutions,
 }

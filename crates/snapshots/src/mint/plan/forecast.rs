@@ -21,14 +21,14 @@ const PLAIN_BUDGET: f64 = 3e6;
 const FIXED: f64 = 0.2;
 /// The mean cost of measuring a level's difficulty without gates. With gates, few levels reach this step.
 const LADDER: f64 = 0.8;
-/// The spread of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates,
-/// a few failed searches dominate the cost. With gates, the cost varies less, because every candidate is
-/// searched many times.
+/// The variation of a job's cost across seeds: the standard deviation as a multiple of the mean. Without gates, a few
+/// failed searches dominate the cost. With gates, the cost varies less, because every candidate is searched many times.
 const SPREAD_PLAIN: f64 = 1.9;
 const SPREAD_GATED: f64 = 0.7;
 const SPREAD_FIXED_RULES: f64 = 0.8;
 const SPREAD_INVENTED: f64 = 1.2;
-/// The spread that all jobs in a mint share, because job costs were measured with few recipes on one machine.
+/// The variation of the cost that all jobs in a mint share, because job costs were measured with few recipes on one
+/// machine.
 const SPREAD_SHARED: f64 = 0.15;
 /// The 95th percentile of the standard normal distribution.
 const NINETY_FIVE: f64 = 1.645;
@@ -68,7 +68,7 @@ impl Plan<'_> {
         Forecast { median, tail: median * libm::exp(NINETY_FIVE * libm::log(relative).sqrt()) }
     }
 
-    /// Returns a job's mean cost in core seconds, and the cost's spread.
+    /// Returns a job's mean cost in core seconds, and the variation of the cost.
     fn cost(&self, job: Job) -> (f64, f64) {
         let usual = Criteria::default();
         let is_gated = |criteria: &Criteria| !criteria.ask.only(CriterionSet::GATES).is_empty();

@@ -57,7 +57,7 @@ pub struct Plan<'a> {
 /// A unit of work that is independent of all other jobs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Job {
-    /// A new game from a kernel, by its number.
+    /// A new game from a kernel (hand-written design), by its number.
     Constructive(u32),
     /// An invented game, by its method and its number within the method.
     Invented(Method, u32),
@@ -155,7 +155,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Returns the canary that every file contains.
+    /// Returns the canary that every file contains, which identifies the release in text corpora.
     pub fn canary(&self) -> String {
         match self.recipe.commitment {
             // The canary is derived from the recipe's digest, so that distinct recipes have distinct
@@ -198,7 +198,7 @@ impl<'a> Plan<'a> {
         Ok(canonical_digest(&decisive)?)
     }
 
-    /// Returns the jobs that generate candidates for new games from kernels.
+    /// Returns the jobs that generate candidates for new games from kernels (hand-written designs).
     fn generated(&self) -> impl Iterator<Item = Job> + use<> {
         let part = &self.recipe.generated;
         (0..candidates(part.games, part.candidates)).map(Job::Constructive)
@@ -298,7 +298,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Builds a game from a kernel.
+    /// Builds a game from a kernel (hand-written design).
     fn draw(&self, number: u32, seed: SeedPath) -> (Vec<MadeGame>, Tally) {
         let order = self.order(self.recipe.generated.game_tries);
         let (made, tally) = make_one(&order, self.rule_sets(), &self.forms, seed, number);

@@ -8,11 +8,11 @@ use forge::games::RuleSets;
 use forge::well::left;
 use validators::novelty::GameForm;
 
-/// The maximum number of games for which the rule sets need not be counted, because the first rule sets of all
-/// kernels suffice.
+/// The maximum number of games for which the rule sets need not be counted, because the first rule sets of all kernels
+/// (hand-written designs) suffice.
 const FEW: usize = 40;
 
-/// The number of rule sets that one invented game uses up. Nine in ten rule sets have no board that passes, and
+/// The number of rule sets to draw per invented game. Nine in ten rule sets have no board that passes, and
 /// near-duplicates among a month's candidates are dropped.
 const SETS_OF_A_GAME: f64 = 16.0;
 
@@ -33,7 +33,7 @@ impl Plan<'_> {
         Ok(self.generated_supply()?.or(invented))
     }
 
-    /// Checks that there are enough kernels for the new games.
+    /// Checks that there are enough kernels (hand-written designs) for the new games.
     fn generated_supply(&self) -> Result<Option<usize>, MintError> {
         let part = &self.recipe.generated;
         let asked = part.games as usize;

@@ -18,7 +18,8 @@ const SEALED: &str = "sealed: seed and winning episodes are held back until it i
 const UNCHECKED: &str = "- That games come from the seed that was committed to can be checked only \
                          after the release is revealed, and wholly only by minting it again.\n";
 
-/// The description of a sealed release after the reveal of only the wins selected by coin tosses.
+/// The description of a sealed release after the early publication of one win per level. For each level, a secret
+/// random choice selected the win.
 const SOLVED: &str = "sealed: a winning episode of each level is public, seed and second episodes are held \
                       back until it is revealed";
 

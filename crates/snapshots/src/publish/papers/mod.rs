@@ -17,7 +17,8 @@ use crate::recipe::cited::Cited;
 use serde::Deserialize;
 
 impl Minted {
-    /// Returns a release's initial papers, by path. The facts in them come from the manifest and the cards.
+    /// Returns a release's initial papers (documents such as the licence), by path. The facts in them come from the
+    /// manifest and the cards.
     pub fn papers(&self) -> Vec<(String, String)> {
         let manifest = &self.manifest;
         let papers = [

@@ -13,8 +13,8 @@ use forge::card::Card;
 use generators::GENERATION;
 use std::collections::BTreeMap;
 
-/// Returns the problems with a release's reference results, given the cards of its games. For releases of a different
-/// generation, only the canary is compared.
+/// Returns the problems with the stored results of reference players, given the cards of the release's games. For
+/// releases of a different generation, only the canary is compared.
 pub(super) fn problems(
     contents: &Contents,
     manifest: &Manifest,

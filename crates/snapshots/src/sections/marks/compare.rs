@@ -9,7 +9,7 @@ use validators::{Commitment, Tier};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MarkDifference {
-    /// The tier; `None` for all levels.
+    /// The tier (difficulty class); `None` for all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
     /// The reference player.

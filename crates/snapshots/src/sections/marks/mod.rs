@@ -35,7 +35,7 @@ pub const MARKS_FORMAT: u32 = 1;
 
 /// The maximum number of reference players that a recipe can request.
 const MOST_PLAYERS: usize = 16;
-/// The maximum number of episodes per player, commitment and level.
+/// The maximum number of episodes per player, commitment (number of actions per decision) and level.
 const MOST_PLAYS: u64 = 20;
 /// The maximum number of actions per episode that a recipe can request.
 const MOST_STEPS: u64 = 2000;
@@ -70,7 +70,7 @@ base::with_defaults! {
         pub players: Vec<String> = names(&["random", "touch-everything", "nearest-goal", "reflex", "width:200", "guided-mcts:200", "olets:200"]),
         /// The numbers of actions that the players commit to at each decision.
         pub commits: Vec<Commitment> = vec![Commitment::One, Commitment::Five, Commitment::Twenty, Commitment::All],
-        /// The number of episodes per player, commitment and level.
+        /// The number of episodes per player, commitment (number of actions per decision) and level.
         pub plays: u64 = 2,
         /// The maximum number of actions per episode.
         pub max_steps: u64 = 400,
@@ -121,7 +121,8 @@ impl MarksPart {
     }
 
     /// Estimates the cost of a level's reference results, in core seconds on the machine described in
-    /// docs/reference/recipes.md. In a deterministic game, planners play once for all commitments.
+    /// docs/reference/recipes.md. In a deterministic game, planners play once for all commitments (numbers of actions
+    /// per decision).
     pub(crate) fn seconds(&self, is_certain: bool) -> f64 {
         let looks = |commit: &Commitment| commit.actions().map_or(0.0, |actions| 1.0 / actions as f64);
         let of = |player: &String| match player.parse::<PlannerSpec>() {
@@ -148,32 +149,33 @@ pub trait MarkPlayers: Sync + Debug {
     /// Returns a message if the player does not exist.
     fn check(&self, player: &str) -> Result<(), String>;
 
-    /// Plays a game's levels, and returns the number of episodes won for each level, player and commitment. The
-    /// result depends only on the texts and the request.
+    /// Plays a game's levels, and returns the number of episodes won for each level, player and commitment (number of
+    /// actions per decision). The result depends only on the texts and the request.
     ///
     /// # Errors
     /// Returns a message if a player cannot play the game.
     fn play(&self, game: &str, levels: &[String], asked: &MarksPart) -> Result<Vec<Wins>, String>;
 }
 
-/// The numbers of episodes won on a level, as one list per player with one number per commitment.
+/// The numbers of episodes won on a level, as one list per player with one number per commitment (number of actions per
+/// decision).
 pub type Wins = Vec<Vec<u64>>;
 
 /// The content of [`MARKS_FILE`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Marks {
-    /// The release's canary.
+    /// The release's canary: an identifier that shows whether a text corpus contains the release.
     pub canary: String,
     /// The version of the format: [`MARKS_FORMAT`].
     pub format: u32,
     /// The recipe's request.
     pub asked: MarksPart,
-    /// The win rate of each player with each commitment, first in each tier (lowest tier first) and then over all
-    /// levels.
+    /// The win rate of each player with each commitment (number of actions per decision), first in each tier (lowest
+    /// tier first) and then over all levels.
     pub rates: Vec<MarkRate>,
-    /// The decreases in win rate from each tier to the next higher one, and from each commitment to the next longer
-    /// one.
+    /// The decreases in win rate from each tier (difficulty class) to the next higher one, and from each commitment
+    /// (number of actions per decision) to the next longer one.
     pub falls: Falls,
     /// The games, ordered by folder name.
     pub games: Vec<GameMarks>,
@@ -193,17 +195,18 @@ pub struct GameMarks {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LevelMarks {
-    /// The level's tier.
+    /// The level's tier (difficulty class).
     pub tier: Tier,
-    /// The number of episodes won, by player and commitment.
+    /// The number of episodes won, by player and commitment (number of actions per decision).
     pub wins: Wins,
 }
 
-/// A player's win rate with one commitment on the levels of one tier.
+/// A player's win rate with one commitment (number of actions per decision) on the levels of one tier (difficulty
+/// class).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MarkRate {
-    /// The tier; `None` for all levels.
+    /// The tier (difficulty class); `None` for all levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
     /// The reference player.

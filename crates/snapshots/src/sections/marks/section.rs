@@ -1,4 +1,4 @@
-//! The implementation of the hooks for `[marks]`.
+//! The implementation of the hooks for `[marks]`, the results of reference players.
 
 use super::check::{problems, shape_problem};
 use super::{GameMarks, LevelMarks, Marks, MarksPart};
@@ -16,7 +16,7 @@ use forge::card::Card;
 use serde_json::{Map, Value, json};
 use validators::Tier;
 
-/// The `[marks]` section of a recipe.
+/// The `[marks]` section of a recipe, which requests the results of reference players.
 pub(crate) struct MarksSection;
 
 impl Section for MarksSection {
@@ -72,7 +72,7 @@ impl Section for MarksSection {
     }
 }
 
-/// Returns a game's reference results, with the tiers from its card.
+/// Returns a game's reference results, with its levels' tiers (difficulty classes) from its card.
 fn marks_of(game: &FrozenGame) -> GameMarks {
     let levels = game.card.levels.iter().zip(&game.marks);
     let level =

@@ -1,5 +1,5 @@
-//! The decreases in the reference players' win rates from one tier to the next, and from one commitment to
-//! the next.
+//! The decreases in the reference players' win rates from one tier (difficulty class) to the next, and from one
+//! commitment (number of actions per decision) to the next.
 
 use super::{GameMarks, LevelMarks, MarksPart};
 use serde::{Deserialize, Serialize};
@@ -10,9 +10,9 @@ use validators::{Commitment, Tier};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Falls {
-    /// The decreases from each tier to the next higher tier that exists, over all commitments.
+    /// The decreases from each tier (difficulty class) to the next higher tier that exists, over all commitments.
     pub tiers: Vec<Fall<Tier>>,
-    /// The decreases from each commitment to the next longer one, over all levels.
+    /// The decreases from each commitment (number of actions per decision) to the next longer one, over all levels.
     pub commits: Vec<Fall<Commitment>>,
 }
 
@@ -24,9 +24,9 @@ pub struct Fall<T> {
     /// The player; `None` for the mean of all players.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub player: Option<String>,
-    /// The lower tier, or the shorter commitment.
+    /// The lower tier (difficulty class), or the smaller number of actions per decision.
     pub from: T,
-    /// The higher tier, or the longer commitment.
+    /// The higher tier (difficulty class), or the greater number of actions per decision.
     pub to: T,
     /// The number of games with levels of both kinds.
     pub games: u64,
@@ -75,7 +75,8 @@ impl Falls {
     }
 }
 
-/// Returns the mean fraction of episodes won over the selected levels and commitments in a game.
+/// Returns the mean fraction of episodes won over the selected levels and commitments (numbers of actions per decision)
+/// in a game.
 fn rate(
     asked: &MarksPart,
     game: &GameMarks,

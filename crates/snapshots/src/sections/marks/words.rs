@@ -5,7 +5,8 @@ use itertools::Itertools;
 use std::fmt::{Display, Write};
 
 impl Marks {
-    /// Formats the win rates by tier and commitment, and their decreases.
+    /// Formats the win rates by tier (difficulty class) and commitment (number of actions per decision), and their
+    /// decreases.
     pub(crate) fn in_words(&self) -> String {
         let mut text = format!(
             "## Marks\n\nPlayers that never change, with {} plays of each commitment on each level, of at most {} actions; planners in \

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 /// the same actions.
 pub const PREFIX: usize = 10;
 
-/// A game's sibling: the same rules and levels under different names.
+/// A game's sibling: a copy with the same rules and levels under different names, which is withheld.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sibling {

@@ -1,5 +1,5 @@
-//! Checks of pairs after the reveal. The two members must differ only in permitted ways, and the published member
-//! must be the one that the coin toss selected.
+//! Checks of pairs after the reveal. A pair consists of two renamings of a game or two wins of a level. The two members
+//! must differ only in permitted ways, and the published member must be the one that the secret random choice selected.
 
 use super::toss::differ;
 use super::{SecondWin, Sibling, publishes_sibling, publishes_win};
@@ -12,7 +12,7 @@ use validators::GameForm;
 /// A game's levels with their published wins.
 pub(super) type Levels = [(Level, Option<Episode>)];
 
-/// A withheld sibling, loaded from its texts.
+/// A game's sibling (the withheld renamed copy), loaded from its texts.
 pub(crate) struct SecretGame {
     /// The sibling's rules.
     pub(crate) game: Game,
@@ -21,7 +21,7 @@ pub(crate) struct SecretGame {
 }
 
 impl SecretGame {
-    /// Loads a sibling's texts.
+    /// Loads the texts of a sibling (a withheld renamed copy).
     ///
     /// # Errors
     /// Returns a message if the rules or a level do not load.
@@ -37,9 +37,9 @@ impl SecretGame {
         Ok(SecretGame { game, levels })
     }
 
-    /// Returns a sentence about the problem with a published game's sibling. It is a problem if the rules or the
-    /// levels differ from the game's, or if the coin toss selected the sibling for publication. `root` is the seed
-    /// for the coin tosses.
+    /// Returns a sentence about the problem with a published game's sibling (its withheld renamed copy). It is a
+    /// problem if the rules or the levels differ from the game's, or if the random choice selected the sibling for
+    /// publication. `root` is the seed for the random choices.
     pub(crate) fn flaw(&self, published: &Game, levels: &Levels, root: Option<Seed>) -> Option<String> {
         let (one, other) = (published.digest(), self.game.digest());
         if one == other {
@@ -66,7 +66,8 @@ impl SecretGame {
     }
 }
 
-/// Returns a sentence about the problem with a level's pair of wins, without replaying the second win.
+/// Returns a sentence about the problem with a level's pair of wins (published and withheld), without replaying the
+/// withheld win.
 pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
@@ -124,7 +125,8 @@ mod tests {
         TerminationSet\n        SpriteCounter stype=door limit=0 win=True\n        Timeout limit=50 win=False\n";
     const LEVEL: &str = "wwwww\nwm.dw\nwwwww\n";
 
-    /// Checks the mole's sibling after a change, with a seed for which the coin toss gives heads or tails.
+    /// Checks the sibling (renamed copy) of the game of the mole after a change. `heads` is the result of the random
+    /// choice between the two copies.
     #[track_caller]
     fn check(change: impl Fn(&mut String, &mut Vec<String>), heads: bool, expect: Option<&str>) {
         let game = Game::from_source(GAME).unwrap();

@@ -7,7 +7,7 @@ use base::Digest;
 use serde::{Deserialize, Serialize};
 
 base::with_defaults! {
-    /// The coin tosses that a recipe requests.
+    /// The random choices for memory tests that a recipe requests.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct MemoryPart {
@@ -22,7 +22,7 @@ impl MemoryPart {
     /// Checks the section's values.
     ///
     /// # Errors
-    /// Returns an error if neither kind of coin toss is requested, or if the release has no commitment.
+    /// Returns an error if neither kind of random choice is requested, or if the release has no commitment.
     pub(crate) fn check(&self, commitment: Option<Digest>) -> Result<(), RecipeError> {
         if !(self.siblings || self.witnesses) {
             return wrong("memory", "requests neither `siblings` nor `witnesses`: remove the section");
@@ -44,7 +44,7 @@ impl MemoryPart {
     }
 }
 
-/// Returns `true` if the wins selected by coin tosses can be revealed before a release's other withheld files.
+/// Returns `true` if one win per level, selected at random, can be revealed before a release's other withheld files.
 pub(crate) fn has_second_wins(manifest: &Manifest) -> bool {
     manifest.kind == ReleaseKind::Sealed && MemoryPart::of(manifest).is_some_and(|part| part.witnesses)
 }

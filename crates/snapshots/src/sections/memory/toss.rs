@@ -1,4 +1,5 @@
-//! The creation of pairs, and the coin tosses between their members. Both are part of minting a game.
+//! The creation of pairs (two renamings of a game, or two wins of a level), and the coin tosses that decide which
+//! member is published. Both are part of minting a game.
 
 use super::{PREFIX, SecondWin, Sibling, publishes_sibling, publishes_win};
 use crate::sections::frozen::FrozenGame;
@@ -22,8 +23,8 @@ const DETOUR: usize = 6;
 const THEME_TRIES: u64 = 16;
 
 /// Creates the pairs requested for a game. A coin toss selects the member of each pair that is published. A game
-/// without a second theme gets no sibling, and a level without a second win gets no pair. `criteria` are the criteria
-/// of the game's judges.
+/// without a second theme gets no sibling (withheld renamed copy), and a level without a second win gets no pair.
+/// `criteria` are the criteria of the game's judges.
 ///
 /// Cost: up to [`TRIES`] attempts at a second win per level.
 pub(crate) fn toss(frozen: &mut FrozenGame, root: Seed, part: MemoryPart, criteria: &Criteria) {
@@ -65,7 +66,7 @@ fn toss_siblings(frozen: &mut FrozenGame, root: Seed) {
         patterns.retain(|pattern| !["scene/", "fiction/"].iter().any(|kind| pattern.starts_with(kind)));
     }
     for (level, witness) in card.levels.iter_mut().zip(&witnesses) {
-        // The level's question is phrased in the names of the original scene, so it is dropped.
+        // The sentence about the level's problem uses the names of the original scene (theme), so it is dropped.
         (level.digest, level.asks) = (witness.level, None);
     }
     (frozen.text, frozen.levels, frozen.witnesses) = (published.text, published.levels, witnesses);

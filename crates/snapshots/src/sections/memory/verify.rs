@@ -1,4 +1,4 @@
-//! Checks of the withheld members of pairs, which are siblings of games and second wins of levels.
+//! Checks of the withheld members of pairs, which are siblings (renamed copies) of games and second wins of levels.
 
 use super::pairs::{SecretGame, pair_flaw};
 use super::part::MemoryPart;
@@ -10,8 +10,8 @@ use crate::format::witness::Witness;
 use crate::recipe::secret::UNRELATED_WITNESS;
 use crate::sections::section::{CheckedGame, Checking, Found};
 
-/// Checks a game's pairs in a sealed release. For files that are still withheld, checks only that all of them are
-/// listed.
+/// Checks a game's pairs in a sealed release: two renamings of the game, and two wins of each level. For files that are
+/// still withheld, checks only that all of them are listed.
 pub(super) fn check_pairs(
     release: &Checking<'_>,
     checked: &CheckedGame<'_>,
@@ -29,7 +29,7 @@ pub(super) fn check_pairs(
     Ok(())
 }
 
-/// Checks a game's sibling.
+/// Checks a game's sibling, which is its withheld renamed copy.
 fn check_sibling(
     release: &Checking<'_>,
     checked: &CheckedGame<'_>,

@@ -11,7 +11,7 @@ use generators::games::{LockRules, PushRules, Rethemed, YardRules};
 use generators::levels::LevelConfig;
 use validators::{CheckedCriteria, Effort, Panel};
 
-/// The maximum number of renamings to draw in search of one that uses the puzzle's scene.
+/// The maximum number of renamings to draw in search of one that uses the puzzle's scene (theme).
 const FICTIONS: u64 = 400;
 
 /// A request for one puzzle.
@@ -23,8 +23,8 @@ pub(crate) struct Request {
     pub(crate) place: usize,
 }
 
-/// Generates a puzzle in its own scene, with levels from the lowest to the highest requested tier. `root` is the
-/// release's seed, and `seed` is the job's seed.
+/// Generates a puzzle in its own scene (theme), with levels from the lowest to the highest requested tier (difficulty
+/// class). `root` is the release's seed, and `seed` is the job's seed.
 pub(crate) fn make(
     recipe: &Recipe,
     criteria: &CheckedCriteria,

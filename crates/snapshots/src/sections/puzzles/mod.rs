@@ -1,5 +1,6 @@
-//! The puzzle sections: pushing (`[puzzles]`), locks, yards, and pushing among strays. Levels are constructed
-//! backwards from their solutions, so that they meet the recipe's tiers.
+//! The puzzle sections of recipes: pushing (`[puzzles]`), locks (`[locks]`), carrying parcels among carts (`[yards]`),
+//! and pushing among wandering deadly sprites (`[strays]`). Levels are constructed backwards from their solutions, so
+//! that they meet the recipe's tiers.
 
 mod make;
 mod section;
@@ -82,7 +83,7 @@ pub enum PuzzleKind {
     Locks,
     /// Puzzles in which the player carries parcels between carts.
     Yards,
-    /// Puzzles about pushing objects among strays (sprites that wander at random and kill).
+    /// Puzzles about pushing objects among strays, which are deadly sprites that wander at random.
     Strays,
 }
 

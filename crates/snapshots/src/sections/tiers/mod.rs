@@ -1,4 +1,4 @@
-//! The `[tiers]` section of a recipe: the fraction of levels in each tier.
+//! The `[tiers]` section of a recipe: the fraction of levels in each tier, which is a difficulty class from 1 to 4.
 
 mod section;
 
@@ -9,7 +9,7 @@ use crate::recipe::error::{RecipeError, wrong};
 use serde::{Deserialize, Serialize};
 use validators::Tier;
 
-/// The fraction of levels in each tier.
+/// The fraction of levels in each tier (difficulty class).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tiers {
@@ -32,7 +32,7 @@ fn is_zero(share: &f64) -> bool {
 }
 
 impl Tiers {
-    /// Returns `true` if no tiers are requested.
+    /// Returns `true` if no tiers (difficulty classes) are requested.
     pub fn is_empty(&self) -> bool {
         *self == Tiers::default()
     }

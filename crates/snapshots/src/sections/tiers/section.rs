@@ -1,4 +1,4 @@
-//! The implementation of the hooks for `[tiers]`.
+//! The implementation of the hooks for `[tiers]`, the requested fractions of levels by difficulty class.
 
 use crate::recipe::Recipe;
 use crate::recipe::error::RecipeError;

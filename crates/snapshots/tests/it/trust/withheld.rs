@@ -18,8 +18,8 @@ type Files = Vec<(String, Vec<u8>)>;
 
 const LISTS: [&str; 2] = ["held/REST.json", "held/SOLUTIONS.json"];
 
-/// Returns a sealed release whose recipe has coins for wins, and its secret. `more` lists additional withheld
-/// files.
+/// Returns a sealed release whose recipe chooses at random between two wins of each level, and its secret. `more` lists
+/// additional withheld files.
 fn sealed(more: &[(&str, &[u8])]) -> (Small, Secret) {
     let recipe = json!({ "name": "2026-12", "memory": { "siblings": true, "witnesses": true } });
     let secret = Secret::draw("2026-12", Digest::of(&json(&recipe)), [7; 64]);

@@ -1,10 +1,10 @@
-//! The mode and the curvature of the model's posterior for given spreads (Laplace's method).
+//! The mode and the curvature of the model's posterior for given standard deviations (Laplace's method).
 //!
 //! The effects of different games interact only through a few parameters that all games share. Therefore, each step
 //! costs one Cholesky factorisation of a small matrix per game, and one of a Schur complement.
 //!
-//! Game effects are measured in standard deviations, so that their prior is standard normal, and the spreads
-//! are part of the loadings. The model therefore stays well-defined as a spread approaches zero.
+//! Game effects are measured in standard deviations, so that their prior is standard normal, and the spreads are part
+//! of the loadings. The model therefore stays well-defined as a spread approaches zero.
 
 mod functional;
 mod slope;
@@ -42,8 +42,8 @@ const LONGEST: f64 = 3.0;
 /// The results on some games, and the parameters shared by all games.
 ///
 /// If the abilities are unknown, they are the shared parameters. If they are known, the shared parameter is the shift
-/// in difficulty for planners. If readers played, there is a second shared parameter: the additional shift for
-/// readers, beyond the one implied by the shift for planners.
+/// in difficulty for planners. If readers (players that see only prompts) played, there is a second shared parameter:
+/// the additional shift for readers, beyond the one implied by the shift for planners.
 pub(super) struct Model<'a> {
     pub(super) examinees: &'a [Examinee],
     pub(super) games: &'a [GamePlays],
@@ -56,13 +56,13 @@ pub(super) struct Model<'a> {
 struct Layout {
     size: usize,
     levels: usize,
-    /// The position of the first effect for readers, which is the game's effect. The effects of the levels follow. If
-    /// no readers played, these effects keep their prior distribution.
+    /// The position of the first effect for readers (players that see only prompts), which is the game's effect. The
+    /// effects of the levels follow. If no readers played, these effects keep their prior distribution.
     readers: usize,
     has_readers: bool,
-    /// The positions of two match effects per examinee: the family's effect, and the examinee's additional effect. An
-    /// examinee that is the only member of its family has only the family's effect, and a reader has only the
-    /// additional effect.
+    /// The positions of two match effects per examinee (reference player), which state how well the game suits it: the
+    /// family's effect, and the examinee's additional effect. An examinee that is the only member of its family has
+    /// only the family's effect. A reader (a player that sees only prompts) has only the additional effect.
     matches: Vec<(Option<usize>, Option<usize>)>,
 }
 
@@ -80,7 +80,7 @@ impl<'a> Model<'a> {
         Model { examinees, games, abilities, layouts, has_readers }
     }
 
-    /// Returns `true` if a reader played.
+    /// Returns `true` if a reader (a player that sees only prompts) played.
     pub(super) fn has_readers(&self) -> bool {
         self.has_readers
     }
@@ -95,7 +95,8 @@ impl<'a> Model<'a> {
         self.abilities.map_or(self.examinees.len(), |_| 1 + usize::from(self.has_readers))
     }
 
-    /// Returns the shared terms of an examinee's linear predictor, and its fixed part.
+    /// Returns the shared terms in the linear predictor of an examinee (reference player), and the fixed part of the
+    /// predictor.
     pub(super) fn shared_terms(&self, spreads: &Spreads, examinee: usize) -> (Terms, f64) {
         let Some(abilities) = self.abilities else { return (Terms::from_iter([(examinee, 1.0)]), 0.0) };
         let shift = self.shift_terms(spreads, self.examinees[examinee].dimension);
@@ -128,7 +129,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Returns the game's terms in an examinee's linear predictor on a level.
+    /// Returns the game's terms in the linear predictor of an examinee (reference player) on a level.
     pub(super) fn terms(&self, spreads: &Spreads, game: usize, examinee: usize, level: usize) -> Terms {
         let dimension = self.examinees[examinee].dimension;
         let mut terms = self.difficulty_terms(spreads, game, level, dimension);
@@ -348,7 +349,7 @@ impl Layout {
     }
 }
 
-/// An examinee's results on a level, with the terms of the linear predictor for this level.
+/// The results of an examinee (reference player) on a level, with the terms of the linear predictor for this level.
 struct Row {
     examinee: usize,
     level: usize,
@@ -515,7 +516,7 @@ impl Posterior {
         terms.tr_mul(&self.curvature.games[game].within.solve(&terms))
     }
 
-    /// Returns the change in a functional per unit increase in the fixed ability of each examinee.
+    /// Returns the change in a functional per unit increase in the fixed ability of each examinee (reference player).
     pub(super) fn sensitivity(&self, functional: &Functional, examinees: usize) -> Vec<f64> {
         let shared = &self.covariance * self.slope(functional);
         let mut moves = vec![0.0; examinees];

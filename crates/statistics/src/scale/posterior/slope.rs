@@ -1,6 +1,6 @@
-//! The derivatives of the marginal likelihood with respect to the parameters of the spreads. Each derivative requires
-//! one pass over the results. The dependence of the modes on the spreads is handled by the adjoint method, which
-//! solves one linear system for all parameters.
+//! The derivatives of the marginal likelihood with respect to the parameters of the spreads (standard deviations). Each
+//! derivative requires one pass over the results. The dependence of the modes on the spreads is handled by the adjoint
+//! method, which solves one linear system for all parameters.
 
 use super::{Model, Posterior};
 use crate::scale::logistic::logistic;
@@ -9,7 +9,7 @@ use crate::scale::spreads::{PLANNERS_ONLY, Spreads, WITH_READERS};
 use arrayvec::ArrayVec;
 use nalgebra::{DMatrix, DVector};
 
-/// Values for one examinee's results on a level, evaluated at the mode.
+/// Values for the results of one examinee (reference player) on a level, evaluated at the mode.
 struct Place {
     rest: f64,
     weight: f64,
@@ -20,8 +20,9 @@ struct Place {
 }
 
 impl Model<'_> {
-    /// Returns the derivatives of the marginal likelihood with respect to the parameters of the spreads. They are
-    /// evaluated at a mode of a model with unknown abilities. Cost: about one step towards the mode.
+    /// Returns the derivatives of the marginal likelihood with respect to the parameters of the spreads (standard
+    /// deviations). They are evaluated at a mode of a model with unknown abilities. Cost: about one step towards the
+    /// mode.
     pub(in crate::scale) fn slope(&self, spreads: &Spreads, posterior: &Posterior) -> Vec<f64> {
         let shared = &posterior.modes.shared;
         let mut pull = DVector::<f64>::zeros(shared.len());
@@ -128,7 +129,7 @@ mod tests {
     use super::*;
     use crate::scale::simulated::{Plan, Simulator};
 
-    /// The derivatives match finite differences, with and without readers.
+    /// The derivatives match finite differences, with and without readers (players that see only prompts).
     #[test]
     fn derivatives_are_those_of_differences() {
         for anchors in [0, 2] {

@@ -1,4 +1,4 @@
-//! Furnishing of levels that the avatar walks through, with exits, keys, goods and dangers.
+//! Placement of sprites on boards that the avatar walks through, with exits, keys, goods and dangers.
 
 use crate::levels::construct::builder::{Builder, back};
 use crate::levels::construct::plan;
@@ -8,7 +8,7 @@ use engine::analysis::{Key, Motion, Role};
 use engine::{Direction, SpriteType};
 
 impl Builder<'_> {
-    /// Furnishes a board that contains only walls.
+    /// Places the sprites on a board that contains only walls.
     pub(crate) fn adventure(&mut self) {
         let start = self.choose_start();
         self.put_avatar(start);
@@ -95,8 +95,8 @@ impl Builder<'_> {
         })
     }
 
-    /// Returns the weight of a cell according to its footing. If the avatar falls, most sprites stand on the ground,
-    /// but goods may hang in the air.
+    /// Returns the weight of a cell according to what is below it. If the avatar falls, most sprites stand on the
+    /// ground, but goods may hang in the air.
     fn ground(&self, cell: usize, role: Role) -> u32 {
         match role {
             _ if !self.avatar_falls() => 1,
@@ -160,7 +160,7 @@ impl Builder<'_> {
                 }
             }
             Role::Boulder => u32::from(own_kind > 0),
-            // Place wards close together, so that there is room for the things that threaten them.
+            // Place protected sprites close together, so that there is room for the things that threaten them.
             Role::Ward => 1 + 12 / (1 + own_kind),
             Role::Pushable | Role::Socket if walls == 0 && from_start > 1 => own_kind,
             Role::Pushable | Role::Socket => 0,
@@ -346,12 +346,13 @@ impl Builder<'_> {
         }
     }
 
-    /// Places a key in front of the gates that it opens, in zone 0 or behind a gate of a different kind. Returns the
-    /// cell.
+    /// Places a key in front of the gates that it opens, in the part of the board without gates (zone 0), or behind a
+    /// gate of a different kind. Returns the cell.
     fn place_key(&mut self, giver: SpriteType) -> Option<usize> {
         let steps = self.steps();
         let radius = self.radius(&steps);
-        // The zones behind the gates that this key opens. Zones are numbered in the order of placement.
+        // The zones (parts of the board) behind the gates that this key opens. Zones are numbered in the order of
+        // placement.
         let own = self.log.iter().filter_map(|&(cell, stype)| {
             let opened = self.lock_of(stype)?.givers.iter().any(|(key, _)| *key == giver);
             (opened && self.role(stype) == Role::Gate).then_some(self.board.zone[cell])
@@ -406,8 +407,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Places refills for a resource that the ground drains. The refills are dense enough that no path between two of
-    /// them is longer than the supply lasts.
+    /// Places refills for a resource that the ground drains. The refills are dense enough that the avatar never runs
+    /// out of the resource on a path between two of them.
     fn fuel(&mut self) {
         let Some(start) = self.analysis.start_avatar() else { return };
         for resource in self.analysis.resources() {

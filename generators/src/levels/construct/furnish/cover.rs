@@ -1,4 +1,4 @@
-//! Adjustment of a furnished board to the requested cover.
+//! Adjustment of a finished board to the requested fraction of cells that contain more than floor.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::examples::is_cover;

@@ -1,5 +1,5 @@
-//! Furnishing of crossings. The avatar starts at the bottom, its goal is at the top, and traffic runs between them in
-//! lanes from edge to edge.
+//! Placement of sprites for crossings. The avatar starts at the bottom, its goal is at the top, and traffic runs
+//! between them in lanes from edge to edge.
 
 use crate::levels::construct::builder::{Builder, way};
 use crate::levels::construct::plan;
@@ -52,7 +52,7 @@ pub(crate) fn traffic(analysis: &Analysis, palette: &Palette) -> Option<Traffic>
 }
 
 impl Builder<'_> {
-    /// Draws the use of each row: lanes in groups of one to three between verges.
+    /// Draws the use of each row: lanes in groups of one to three, between verges (rows without traffic).
     pub(crate) fn rows(&mut self, grid: Grid, ring: bool, traffic: &Traffic) -> Vec<Row> {
         let edge = usize::from(ring);
         let (first, last) = (edge, grid.rows - 1 - edge);
@@ -74,8 +74,8 @@ impl Builder<'_> {
         rows
     }
 
-    /// Returns the walls at the top and the bottom of the board, at the sides of verges, and at the sides of lanes in
-    /// which traffic turns.
+    /// Returns the walls at the top and the bottom of the board, at the sides of verges (rows without traffic), and at
+    /// the sides of lanes in which traffic turns.
     pub(crate) fn lane_walls(grid: Grid, rows: &[Row], ring: bool, traffic: &Traffic) -> Vec<bool> {
         let side = |cell: usize| grid.x(cell) == 0 || grid.x(cell) + 1 == grid.columns;
         let wall = |cell: usize| match rows[grid.y(cell)] {
@@ -86,7 +86,7 @@ impl Builder<'_> {
         (0..grid.len()).map(wall).collect()
     }
 
-    /// Furnishes a crossing's rows.
+    /// Fills the rows of a crossing with sprites.
     pub(crate) fn crossing(&mut self, rows: &[Row], traffic: &Traffic) {
         let grid = self.board.grid;
         let verges: Vec<usize> = (0..grid.rows).filter(|&row| rows[row] == Row::Verge).collect();
@@ -107,7 +107,8 @@ impl Builder<'_> {
                 self.drive(row, stype);
             }
         }
-        // Other things lie on verges, and collectables also in lanes. Other traffic is omitted.
+        // Other sprites are placed on verges (rows without traffic), and collectables also in lanes. Other traffic is
+        // omitted.
         let lanes: Vec<usize> =
             (0..grid.len()).filter(|&cell| matches!(rows[grid.y(cell)], Row::Lane(_))).collect();
         for &cell in &lanes {

@@ -1,5 +1,5 @@
-//! Furnishing of an open field for an avatar that moves along one edge, with enemies on the far side and cover in
-//! between.
+//! Placement of sprites on an open field for an avatar that moves along one edge, with enemies on the far side and
+//! cover in between.
 
 use crate::levels::construct::builder::Builder;
 use crate::levels::construct::plan::Wish;
@@ -43,7 +43,7 @@ impl Field {
 }
 
 impl Builder<'_> {
-    /// Furnishes a field without inner walls.
+    /// Places the sprites on a field without inner walls.
     pub(crate) fn gallery(&mut self, steering: Steering, ring: bool) {
         let edge = usize::from(ring);
         let (columns, rows) = (self.board.grid.columns - 2 * edge, self.board.grid.rows - 2 * edge);

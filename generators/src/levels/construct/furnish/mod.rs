@@ -1,4 +1,4 @@
-//! Board furnishing, with one file for each kind of game.
+//! Placement of sprites on boards, with one file for each kind of game.
 
 pub(crate) mod adventure;
 pub(crate) mod cover;

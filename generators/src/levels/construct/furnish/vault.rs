@@ -45,9 +45,9 @@ impl Builder<'_> {
         self.analysis.locks().iter().find(|lock| lock.stype == stype)
     }
 
-    /// Draws a bottleneck in zone 0 that cuts off neither too few nor too many cells; `None` if there is no such
-    /// bottleneck. If `runway` is `true`, two free cells must lie in line in front of the bottleneck, so that an object
-    /// can be pushed into it.
+    /// Draws a bottleneck in zone 0 (the part of the board without gates) that cuts off neither too few nor too many
+    /// cells; `None` if there is no such bottleneck. If `runway` is `true`, two free cells must lie in line in front of
+    /// the bottleneck, so that an object can be pushed into it.
     pub(crate) fn bottleneck(&mut self, runway: bool) -> Option<Bottleneck> {
         let grid = self.board.grid;
         let here = |builder: &Self, cell: usize| {
@@ -86,8 +86,8 @@ impl Builder<'_> {
         Some(found.swap_remove(drawn))
     }
 
-    /// Walls off a corner or a niche of zone 0, leaving one opening. `runway` has the same meaning as in
-    /// [`Builder::bottleneck`].
+    /// Walls off a corner or a niche of zone 0 (the part of the board without gates), leaving one opening. `runway` has
+    /// the same meaning as in [`Builder::bottleneck`].
     pub(crate) fn build_vault(&mut self, runway: bool) -> Option<Bottleneck> {
         self.palette.wall?;
         let grid = self.board.grid;

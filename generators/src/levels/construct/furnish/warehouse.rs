@@ -1,4 +1,4 @@
-//! Furnishing of levels with pushable objects, along with the solutions of these levels.
+//! Placement of sprites in levels with pushable objects, along with the solutions of these levels.
 
 use super::pulls::Pulls;
 use crate::levels::construct::builder::Builder;

@@ -95,7 +95,7 @@ impl Table {
         Table { slots: vec![NONE; 1024], states: Vec::new() }
     }
 
-    /// Returns the slot of a state, or the free slot where it belongs.
+    /// Returns the hash table index of a state, or the free index where it belongs.
     fn slot(&self, state: Packed) -> usize {
         let folded = (state as u64) ^ ((state >> 64) as u64).rotate_left(29);
         let mask = self.slots.len() - 1;

@@ -3,7 +3,7 @@
 use super::floor_plan::{Position, Pushing, bit, each};
 use crate::levels::grid::WAYS;
 
-/// The value of an empty slot.
+/// The value of an empty entry in the hash table.
 const NONE: u32 = u32::MAX;
 
 /// The positions found, in discovery order, with their distances.
@@ -35,7 +35,7 @@ impl SearchedPositions {
         Some(usize::from(self.distances[at as usize]))
     }
 
-    /// Returns the slot of a position, or the free slot where it belongs.
+    /// Returns the hash table index of a position, or the free index where it belongs.
     fn slot(&self, position: &Position) -> usize {
         let mask = self.slots.len().wrapping_sub(1);
         let mut slot = hash(position) as usize & mask;

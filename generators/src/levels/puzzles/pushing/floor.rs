@@ -14,7 +14,7 @@ pub(crate) const MAX_POSITIONS: usize = 100_000;
 const GROUP: usize = 2;
 /// The number of pushes that is rated 1.0.
 const PERFECT: f64 = 120.0;
-/// The maximum number of sills.
+/// The maximum number of sills, which are cells that the avatar can enter and objects cannot.
 const MAX_SILLS: usize = 5;
 /// The number of attempts at a change before a floor plan is returned unchanged.
 const REDRAWS: usize = 40;
@@ -26,7 +26,7 @@ pub(crate) struct FloorPlans<'a> {
     pub(crate) counts: [usize; KINDS],
     /// The maximum number of positions to examine when rating a floor plan.
     pub(crate) most_positions: usize,
-    /// `true` if floor plans have sills, provided that the game declares such a type.
+    /// `true` if floor plans have sills (cells that objects cannot enter), provided that the game declares such a type.
     pub(crate) sills: bool,
 }
 
@@ -123,7 +123,8 @@ impl FloorPlans<'_> {
             && pushing.flood(first, open) == open
     }
 
-    /// Applies a small change: removes, adds or moves a wall, moves one or all targets, or adds or removes a sill.
+    /// Applies a small change: removes, adds or moves a wall, moves one or all targets, or adds or removes a sill (a
+    /// cell that objects cannot enter).
     fn change(&self, floor_plan: &FloorPlan, sampler: &mut Sampler) -> Option<FloorPlan> {
         let mut next = floor_plan.clone();
         let inner = self.inner();

@@ -1,5 +1,5 @@
-//! Pushing puzzles on open boards among strays (sprites that wander at random). The player must plan the pushes ahead
-//! and look at the board before walking.
+//! Pushing puzzles on open boards among wandering deadly sprites. The player must plan the pushes ahead and look at the
+//! board before walking.
 
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
 use super::rules::{Destination, KINDS, Rules};
@@ -13,21 +13,23 @@ use base::{Sampler, Seed};
 use engine::{Action, Analysis, Game, Level, SpriteType};
 
 base::with_defaults! {
-    /// The configuration of pushing puzzles among strays.
+    /// The configuration of pushing puzzles among wandering deadly sprites.
     #[derive(Clone, Debug, PartialEq)]
     pub struct StrayConfig {
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (10, 11),
-        /// The minimum and maximum number of rows, including the row of the fuse. Without that row, a board can have at
-        /// most 128 cells.
+        /// The minimum and maximum number of rows, including the row of the fuse that limits the time. Without that
+        /// row, a board can have at most 128 cells.
         pub rows: (usize, usize) = (11, 12),
-        /// The range of win lengths without strays, in actions. The upper end is exclusive.
+        /// The range of win lengths, in actions, on the same board without wandering sprites. The upper end is
+        /// exclusive.
         pub decisions: (usize, usize) = (50, 120),
-        /// The minimum and maximum number of strays. A level gets the largest number of strays that keeps it fair.
+        /// The minimum and maximum number of wandering deadly sprites. A level gets the largest number that keeps it
+        /// fair.
         pub strays: (usize, usize) = (3, 10),
-        /// The minimum fraction of episodes won by a careful player that looks before every action.
+        /// The minimum fraction of episodes won by a simulated player that looks at the board before every action.
         pub fairness: f64 = 0.4,
-        /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
+        /// The commitments for which the simulated player's win rate is measured. A commitment is the number of ticks
         /// between two looks at the board.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of boards to draw per level.
@@ -39,55 +41,55 @@ base::with_defaults! {
 const LEAST_SIDE: usize = 7;
 /// The fraction of the inner cells that are walls.
 const WALLS: f64 = 0.08;
-/// The fraction of the inner cells that are sills, for rules with sills.
+/// The fraction of the inner cells that are sills (cells that objects cannot enter), for rules with sills.
 const SILLS: f64 = 0.05;
 /// The approximate number of actions per pushed object.
 const ACTIONS_EACH: usize = 15;
 /// The minimum number of inner cells per pushed object, which limits the number of objects.
 const ROOM: usize = 8;
-/// The number of actions in a win per spare action that the fuse allows.
+/// The number of actions in a win per spare action that the fuse (the time limit) allows.
 const SPARE: usize = 2;
-/// The minimum distance between strays and the avatar.
+/// The minimum distance between wandering sprites and the avatar at the start.
 const AWAY: usize = 4;
-/// The number of episodes played by the careful player per fairness test.
+/// The number of episodes played by the simulated player per fairness test.
 const PLAYS: usize = 40;
-/// The number of episodes played by the careful player per measured commitment.
+/// The number of episodes played by the simulated player per measured commitment.
 const MEASURED: usize = 200;
 
-/// A pushing puzzle among strays in the characters of [`PushRules::game`].
+/// A pushing puzzle among wandering deadly sprites, in the characters of [`PushRules::game`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrayLevel {
     /// The level, as text.
     pub text: String,
-    /// The actions that win if no stray gets in the way.
+    /// The actions that win if no wandering sprite gets in the way.
     pub solution: Vec<Action>,
-    /// The fraction of episodes won by a careful player, for each commitment in the configuration.
+    /// The fraction of episodes won by a simulated player, for each commitment in the configuration.
     pub chances: Vec<f64>,
-    /// The level without strays.
+    /// The level without wandering sprites.
     calm: Level,
-    /// The strays' cells.
+    /// The cells of the wandering sprites.
     cells: Vec<usize>,
-    /// The length of the fuse in cells, including the keg.
+    /// The length of the fuse (the time limit) in cells, including the keg at its end.
     fuse: usize,
 }
 
-/// A level generator for the rules in [`PushRules::AMONG_STRAYS`].
+/// A level generator for the rules in [`PushRules::AMONG_STRAYS`], in which deadly sprites wander at random.
 ///
 /// Boards are open, so that the avatar is not cornered for long. The solution pushes one object at a time, always the
-/// one that takes the fewest steps. Strays pass over everything except walls. The win rate of a careful player that
-/// follows these pushes shows how often a player that looks at the board before each action can win.
+/// one that takes the fewest steps. The wandering sprites pass over everything except walls. A simulated player follows
+/// the solution and looks at the board before each action. Its win rate shows how often the level can be won.
 pub struct StrayLevels {
-    /// The game without strays.
+    /// The game without wandering sprites.
     calm: Game,
     rules: Rules,
     config: StrayConfig,
 }
 
 impl StrayLevels {
-    /// Creates a generator for rules with strays.
+    /// Creates a generator for rules with wandering deadly sprites.
     ///
     /// # Panics
-    /// Never panics, because without strays all rules are valid rules of pushing puzzles, as a test verifies.
+    /// Never panics, because without these sprites all rules are valid rules of pushing puzzles, as a test verifies.
     pub fn new(rules: PushRules, config: StrayConfig) -> StrayLevels {
         let calm = rules.without_strays().game();
         let analysis = Analysis::of(&calm);
@@ -162,7 +164,7 @@ impl StrayLevels {
         for thing in 0..things {
             let kind = thing % kinds;
             floor_plan.counts[kind] += 1;
-            // All things of a kind disappear into the same drain.
+            // All objects of a kind disappear into the same drain (a target that remains).
             if self.rules.destinations[kind] != Destination::Sink || thing < kinds {
                 floor_plan.targets[kind] |= bit(free.pop()?);
             }
@@ -178,8 +180,9 @@ impl StrayLevels {
         Some((floor_plan, start))
     }
 
-    /// Wins a level from this generator, in any theme, by playing like the careful player. `stray` is the strays' type,
-    /// and `seed` determines the strays' moves. Returns `None` if the player loses with every patience setting.
+    /// Wins a level from this generator, in any theme, by playing like the simulated player. `stray` is the type of the
+    /// wandering sprites, and `seed` determines their moves. Returns `None` if the player loses with every patience
+    /// setting.
     pub fn win(
         &self,
         made: &StrayLevel,
@@ -294,7 +297,7 @@ fn text(floor_plan: &FloorPlan, start: &Position) -> String {
     rows((0..floor_plan.grid.len()).map(symbol).collect(), floor_plan.grid.columns)
 }
 
-/// Returns a level with strays on floor, and with a fuse of `length` cells above the board.
+/// Returns a level with wandering sprites on floor, and with a fuse of `length` cells above the board.
 fn among(calm: &Level, strays: &[usize], length: usize) -> String {
     let mut cells: Vec<char> = calm.cells().iter().map(|&symbol| char::from(symbol)).collect();
     for &stray in strays {
@@ -311,8 +314,8 @@ fn rows(cells: Vec<char>, columns: usize) -> String {
 mod tests {
     use super::*;
 
-    /// Levels can be won if no stray is in the way, and the careful player's win rate is the same in the game as in the
-    /// generator. This test covers one set of rules, or two in a sweep (`cargo xtask sweep`).
+    /// Levels can be won if no wandering sprite is in the way, and the simulated player's win rate is the same in the
+    /// game as in the generator. This test covers one set of rules, or two in a sweep (`cargo xtask sweep`).
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const PLAYS: u64 = 40;

@@ -17,8 +17,8 @@ pub(crate) struct Trail {
 }
 
 impl Trail {
-    /// Plays a win in a [`PushRules`] level without strays. Returns `None` if the actions do not win. Costs one replay
-    /// of the win.
+    /// Plays a win in a [`PushRules`] level without wandering sprites. Returns `None` if the actions do not win. Costs
+    /// one replay of the win.
     pub(crate) fn of(game: &Game, level: &Level, win: &[Action]) -> Option<Trail> {
         let named = |is_one: fn(&str) -> bool| -> Vec<SpriteType> {
             game.sprite_types().filter(|stype| is_one(game.name(*stype))).collect()

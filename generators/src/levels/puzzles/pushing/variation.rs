@@ -239,8 +239,7 @@ impl<'a> PuzzleVariation<'a> {
         self.furnish(floor_plan, &start, &ways, seed)
     }
 
-    /// Places a position on a board and furnishes the board with the game's other sprites, if the level remains
-    /// winnable.
+    /// Puts a position on a board and adds the game's other sprites, if the level remains winnable.
     fn furnish(
         &self,
         floor_plan: &FloorPlan,

@@ -1,5 +1,5 @@
-//! Yards that meet a target. The player carries parcels past carts whose course must be predicted, with little time to
-//! spare.
+//! Yards, which are puzzles about carrying parcels, generated to meet a target. The player carries parcels past carts
+//! whose paths must be predicted, with little time to spare.
 
 mod timetable;
 mod yard;
@@ -14,24 +14,25 @@ use timetable::{Errands, Timetable};
 use yard::{Furniture, Sign, Yard};
 
 base::with_defaults! {
-    /// The configuration for yards.
+    /// The configuration for yards, in which the avatar carries parcels past moving carts.
     #[derive(Clone, Debug, PartialEq)]
     pub struct YardConfig {
         /// The minimum and maximum number of columns.
         pub columns: (usize, usize) = (11, 12),
-        /// The minimum and maximum number of rows, including the fuse row.
+        /// The minimum and maximum number of rows, including the row of the fuse that limits the time.
         pub rows: (usize, usize) = (11, 12),
         /// The range of the number of key presses in a fastest win. The upper end is exclusive.
         pub decisions: (usize, usize) = (50, 120),
         /// The number of carts on a board of typical size.
         pub carts: usize = 4,
-        /// The minimum and maximum number of strays. A level gets the largest number of strays that keeps it fair.
+        /// The minimum and maximum number of wandering deadly sprites. A level gets the largest number that keeps it
+        /// fair.
         pub strays: (usize, usize) = (4, 10),
         /// The minimum fraction of the win's ticks from which staying in place for ten ticks would be fatal.
         pub exposure: f64 = 0.2,
-        /// The minimum fraction of episodes won by a careful player that looks before every action.
+        /// The minimum fraction of episodes won by a simulated player that looks at the board before every action.
         pub fairness: f64 = 0.4,
-        /// The commitments for which the careful player's win rate is measured. A commitment is the number of ticks
+        /// The commitments for which the simulated player's win rate is measured. A commitment is the number of ticks
         /// between two looks at the board.
         pub commitments: Vec<usize> = Vec::new(),
         /// The maximum number of yards to draw per level.
@@ -39,7 +40,8 @@ base::with_defaults! {
     }
 }
 
-/// The minimum side length of a board, including the fuse row. Smaller boards have no room for tracks.
+/// The minimum side length of a board, including the row of the fuse (the time limit). Smaller boards have no room for
+/// tracks.
 const LEAST_SIDE: usize = 6;
 /// The number of inner cells on a board of typical size, which gets the configured number of carts.
 const USUAL: f64 = 80.0;
@@ -51,23 +53,24 @@ const DETOURS: usize = 6;
 const CARTS: usize = 8;
 /// The maximum number of parcels. Each parcel doubles the time of the win search.
 const PARCELS: usize = 6;
-/// The number of episodes played by the careful player per fairness test.
+/// The number of episodes played by the simulated player per fairness test.
 const PLAYS: usize = 40;
-/// The number of episodes played by the careful player per measured commitment.
+/// The number of episodes played by the simulated player per measured commitment.
 const MEASURED: usize = 200;
-/// The number of attempts to furnish each layout of tracks.
+/// The number of attempts to place sprites on each layout of tracks.
 const FURNISHED: usize = 4;
 /// The maximum length of a fastest win in ticks, as a multiple of the number of steps that it would take without carts.
 const DELAY: f64 = 1.5;
 
-/// A yard in the characters of [`YardRules::game`], with a winning sequence of actions.
+/// A yard (a puzzle about carrying parcels) in the characters of [`YardRules::game`], with a winning sequence of
+/// actions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct YardLevel {
     /// The level, as text.
     pub text: String,
-    /// The actions that win in the minimum number of ticks if no stray gets in the way.
+    /// The actions that win in the minimum number of ticks if no wandering sprite gets in the way.
     pub solution: Vec<Action>,
-    /// The fraction of episodes won by a careful player, for each commitment in the configuration.
+    /// The fraction of episodes won by a simulated player, for each commitment in the configuration.
     pub chances: Vec<f64>,
 }
 
@@ -102,7 +105,7 @@ impl YardConfig {
 
     /// Turns a yard into a level, if it meets the target.
     fn finish(&self, mut yard: Yard, timetable: &Timetable, sampler: &mut Sampler) -> Option<YardLevel> {
-        // The limit set by the longest fuse.
+        // The time limit set by the longest fuse.
         let most = YardRules::BURN * (yard.grid.columns - 1) - 1;
         let (ways, cells) = timetable.fastest(&yard, most)?;
         let decisions = ways.iter().flatten().count();
@@ -127,7 +130,7 @@ impl YardConfig {
     fn furniture(&self, rules: YardRules, grid: Grid) -> Furniture {
         let inner = (grid.columns - 2) * (grid.rows - 2);
         let carts = (self.carts as f64 * inner as f64 / USUAL).round().max(1.0) as usize;
-        // If there are more kinds of depots, the avatar takes fewer steps without a load.
+        // If there are more kinds of depots (destinations of parcels), the avatar takes fewer steps without a load.
         let steps = self.decisions.0.max(8) * (2 + rules.kinds()) / 3;
         // Parcels and their depots are about half of the board's perimeter apart.
         let way = grid.columns + grid.rows - 6;
@@ -136,7 +139,7 @@ impl YardConfig {
     }
 }
 
-/// Creates a careful player for a yard, with a limit of `ticks` ticks.
+/// Creates a simulated player for a yard, with a limit of `ticks` ticks.
 fn lookout<'a>(yard: &'a Yard, timetable: &'a Timetable, ticks: usize) -> Lookout<Errands<'a>> {
     let strays = Strays {
         grid: yard.grid,
@@ -181,7 +184,7 @@ fn text(yard: &Yard, length: usize) -> String {
 mod tests {
     use super::*;
 
-    /// The careful player's win rate is the same in the game as in the generator.
+    /// The simulated player's win rate is the same in the game as in the generator.
     #[test]
     fn plays_among_strays_agree_with_the_game() {
         const FUSE: usize = 6;

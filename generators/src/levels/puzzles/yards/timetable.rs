@@ -1,4 +1,5 @@
-//! The timetable of a yard's carts, and a fastest win. Both are exact, because the avatar does not influence the carts.
+//! The timetable of the carts in a yard, and a fastest win. Both are exact, because the avatar does not influence the
+//! carts.
 
 use super::yard::{RIGHT, Sign, Yard, opposite};
 use crate::levels::grid::WAYS;
@@ -160,7 +161,7 @@ impl Moves for Errands<'_> {
         state % self.timetable.cells
     }
 
-    /// Returns `true` if a state is won, which means that all parcels are at their depots.
+    /// Returns `true` if a state is won, which means that all parcels are at their depots (destinations).
     fn is_won(&self, state: usize) -> bool {
         let (_, load, taken) = self.unpack(state);
         taken == self.all() && load == EMPTY
@@ -200,7 +201,7 @@ struct Remaining {
     /// For each set of taken parcels, the total length of the walks from the remaining parcels to their depots and from
     /// the nearest depots to these parcels.
     tours: Vec<usize>,
-    /// For each depot, the number of steps from each cell.
+    /// For each depot (destination of parcels), the number of steps from each cell.
     steps: Vec<Vec<u32>>,
 }
 

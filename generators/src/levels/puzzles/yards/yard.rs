@@ -1,4 +1,4 @@
-//! A yard: its walls, the signs that carts follow, and its other objects.
+//! The board of a yard: its walls, the signs that carts follow, and its other objects.
 
 use crate::games::YardRules;
 use crate::levels::grid::{Grid, WAYS};
@@ -12,7 +12,7 @@ const WALLS: f64 = 0.14;
 /// The minimum number of cart visits at which a cell counts as busy.
 const OFTEN: u32 = 6;
 
-/// The minimum distance between strays and the avatar.
+/// The minimum distance between wandering deadly sprites and the avatar.
 const AWAY: usize = 5;
 
 /// A sign that turns carts entering its cell.
@@ -58,7 +58,7 @@ pub(super) struct Furniture {
     pub(super) steps: usize,
 }
 
-/// A yard with a border of walls.
+/// The board of a yard, with a border of walls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Yard {
     pub(super) grid: Grid,
@@ -69,9 +69,9 @@ pub(super) struct Yard {
     pub(super) start: usize,
     /// The cell and the kind of each parcel.
     pub(super) parcels: Vec<(usize, usize)>,
-    /// The cells of depots, by kind.
+    /// The cells of the depots (destinations of parcels), by kind.
     pub(super) depots: Vec<usize>,
-    /// The strays' cells.
+    /// The cells of the wandering deadly sprites.
     pub(super) strays: Vec<usize>,
 }
 
@@ -167,8 +167,8 @@ impl Yard {
         Some(signs[sampler.weighted(&weights)?])
     }
 
-    /// Places depots, the avatar, parcels far from their depots, and strays, preferably in cells that carts visit
-    /// often. `visits` contains the number of cart visits per cell.
+    /// Places depots, the avatar, parcels far from their depots, and wandering deadly sprites, preferably in cells that
+    /// carts visit often. `visits` contains the number of cart visits per cell.
     pub(super) fn furnish(
         &mut self,
         rules: YardRules,

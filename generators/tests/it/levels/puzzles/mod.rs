@@ -57,8 +57,8 @@ fn solutions_win_and_levels_vary() {
     }
 }
 
-/// The closer the start is to the solution, the less there is to push. The sum is tested because a floor plan that
-/// cannot be furnished is replaced by a different one.
+/// The closer the start is to the solution, the less there is to push. The sum is tested because a floor plan without
+/// room for the other sprites is replaced by a different one.
 #[test]
 fn a_level_starts_at_the_requested_part_of_the_solution() {
     let game = sink();

@@ -1,4 +1,4 @@
-//! Tests of puzzles among strays.
+//! Tests of puzzles among strays, which are deadly sprites that wander at random.
 
 use base::Seed;
 use generators::games::PushRules;

@@ -167,7 +167,7 @@ fn unlike(names: &[String]) -> Result<Vec<KnownGame>, Failure> {
     Ok(games)
 }
 
-/// Returns the corpus games, the kernels and the given games.
+/// Returns the corpus games, one game for each kernel (hand-written design), and the given games.
 fn known(unlike: &[KnownGame]) -> Result<Known, Failure> {
     let mut known = Known::default();
     for corpus in &embedded::corpus()?.games {

@@ -76,7 +76,7 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    /// Returns `true` if the rules must come from kernels. Only games from kernels have kinds.
+    /// Returns `true` if the rules must come from kernels (hand-written designs). Only games from kernels have kinds.
     fn is_of_kernels(&self) -> bool {
         !self.kind.is_empty()
     }

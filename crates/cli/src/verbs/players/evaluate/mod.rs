@@ -295,7 +295,8 @@ fn forecast(
     Ok(true)
 }
 
-/// Adds the commitment to the settings that distinguish the player from other players.
+/// Adds the commitment (the number of actions per decision) to the settings that distinguish the player from other
+/// players.
 fn with_commitment(mut entrant: Entrant, commit: Commitment) -> Entrant {
     entrant.aids.extend(commit.aid());
     entrant.aids.sort();

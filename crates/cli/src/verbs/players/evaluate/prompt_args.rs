@@ -53,7 +53,7 @@ pub(crate) struct PromptArgs {
     history_tokens: Option<u64>,
 }
 
-/// Parses a track name.
+/// Parses the name of a track, which is a bundle of prompt settings.
 fn track_named(name: String) -> Track {
     let named = Track::ALL.into_iter().find(|track| track.name() == name);
     named.expect("the parser knows the names")
@@ -114,7 +114,7 @@ impl PromptArgs {
             settings.mode = mode;
         }
         settings.history_tokens = self.history_tokens.unwrap_or(settings.history_tokens);
-        // Values set by flags must equal the track's values.
+        // Values set by flags must equal the values that the track (the bundle of prompt settings) sets.
         let free = PromptSettings {
             mode: settings.mode,
             history_tokens: settings.history_tokens,
@@ -132,14 +132,14 @@ impl PromptArgs {
         Ok(settings)
     }
 
-    /// Returns the ways in which the settings differ from the track's settings, as listed in results. Without
-    /// a track, they are compared with the defaults.
+    /// Returns the ways in which the settings differ from the settings of the track (the bundle of prompt settings), as
+    /// listed in results. Without a track, they are compared with the defaults.
     pub(super) fn aids(&self, settings: &PromptSettings) -> Vec<String> {
         let usual = self.track.map_or_else(PromptSettings::default, Track::settings);
         settings.aids_beyond(&usual)
     }
 
-    /// Returns `true` if any prompt flag other than the track is set.
+    /// Returns `true` if any prompt flag is set, other than the flag for the track (the bundle of prompt settings).
     pub(super) fn has_flags(&self) -> Result<bool, Failure> {
         Ok(self.by_flags()? != PromptSettings::default())
     }

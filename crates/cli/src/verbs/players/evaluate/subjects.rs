@@ -27,7 +27,7 @@ const MAX_LISTED: usize = 12;
 /// kilobytes.
 const MAX_CARD: usize = 1 << 24;
 
-/// The maximum size of a marks file, in bytes.
+/// The maximum size of the file with a release's stored results of reference players, in bytes.
 const MAX_MARKS: usize = 1 << 26;
 
 /// The games specified by the user, and the selection to play.
@@ -196,8 +196,8 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
         let (id, file) = item.path.strip_prefix("games/")?.split_once('/')?;
         (file == "card.json").then_some(id)
     });
-    // A sealed release's marks are withheld, and marks in a different version's format cannot be read. Both
-    // count as missing.
+    // A sealed release withholds the stored results of reference players, and results in a different version's format
+    // cannot be read. Both count as missing.
     let path = Marks::path_in(manifest);
     let marks = path.filter(|path| files.has(path)).map(|path| files.text(&path, MAX_MARKS)).transpose()?;
     let marks = marks.and_then(|text| Marks::read(text.as_bytes()).ok());

@@ -1,4 +1,4 @@
-//! The players for each track.
+//! The players for each track, which is a bundle of prompt settings.
 
 use super::Args;
 use super::player::RequestedPlayer;

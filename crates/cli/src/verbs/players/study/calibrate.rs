@@ -64,8 +64,8 @@ pub(crate) struct Args {
     resume: bool,
 }
 
-/// The default seed text for evaluations, also used for marks in mints. Calibrations must use a different
-/// seed text.
+/// The default seed text for evaluations, also used when mints play their reference players. Calibrations must use a
+/// different seed text.
 const OTHERS: &str = "evaluate";
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
@@ -161,7 +161,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(true)
 }
 
-/// Returns the examinees that take part: all examinees, or those of an earlier scale.
+/// Returns the examinees (reference players that never change) that take part: all examinees, or those of an earlier
+/// scale.
 fn examinees(
     earlier: Option<&ScaleFile>,
     path: &Option<PathBuf>,
@@ -172,8 +173,8 @@ fn examinees(
     if known.is_empty() {
         let path = path.as_deref().unwrap_or(Path::new("scale.json")).in_message();
         bail!(
-            "{path}: this version of arcade lacks the examinees of this scale; calibrate with the version \
-             that has them"
+            "{path}: this version of arcade lacks the reference players (examinees) of this scale; calibrate \
+             with the version that has them"
         );
     }
     Ok(known)
@@ -231,7 +232,8 @@ fn calibrated(
     Ok(scale)
 }
 
-/// Rejects reader results that could not be included, before anything is played.
+/// Rejects the results of readers (players that see only prompts) that could not be included, before anything is
+/// played.
 fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) -> Result<(), Failure> {
     if args.readers.is_empty() {
         return Ok(());
@@ -252,15 +254,15 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
         }
         if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
             bail!(
-                "{name}: it did not play the first release of the scale, so it isn't an anchor; place it \
-                 with `arcade study scale`, and omit it from --readers"
+                "{name}: it did not play the first release of the scale, so it isn't an anchor (a reader that \
+                 links months); place it with `arcade study scale`, and omit it from --readers"
             );
         }
     }
     Ok(())
 }
 
-/// Returns the episodes played by the persons with the given names on a release's levels.
+/// Returns the episodes played by the persons (players) with the given names on a release's levels.
 fn plays(settings: &Settings, persons: &[PersonPlays], names: &[&str]) -> Vec<GamePlays> {
     let of_game = |game: &SubjectEntry| {
         let mut found = GamePlays { levels: game.levels.len(), plays: Vec::new() };

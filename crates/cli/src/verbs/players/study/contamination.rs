@@ -24,10 +24,10 @@ use std::path::PathBuf;
 /// cannot tell the two apart, so the tests are exact. Does the player win more often on the published games than on
 /// their siblings? Do its episodes begin like the published wins rather than the withheld ones? At most 1% of clean
 /// models are flagged. The tests are valid for models trained before the full reveal (see `arcade docs memory`). An
-/// open release, such as `starter`, has no coins and cannot be tested. Without RESULTS, prints what the tests could
-/// detect if every level were played once.
+/// open release, such as `starter`, makes no such choices and cannot be tested. Without RESULTS, prints what the tests
+/// could detect if every level were played once.
 ///
-/// Exit status 0: consistent with not having seen the release, or too few coins to tell. 1: a player has seen part of
+/// Exit status 0: consistent with not having seen the release, or too few pairs to tell. 1: a player has seen part of
 /// the release. 2: malformed input, or nothing could be tested.
 ///
 /// Example: arcade study contamination results/a-model results/a-model-siblings --release releases/2027-01
@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let mut unknown = found.players.iter().map(|player| player.unknown).zip(&players);
         let is_of_release = unknown.any(|(unknown, player)| unknown < player.episodes.len() as u64);
         let what = match is_of_release {
-            true => "no player has played both a game and its sibling, or a level with two wins",
+            true => "no player has played both a game and its renamed sibling, or a level with two wins",
             false => "these results contain no episode on any level of the release",
         };
         bail!("{name}: {what}; {}", next(args));
@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     Ok(!players.iter().any(|player| player.evidence.is_seen()))
 }
 
-/// Returns a revealed release's coins: the random choices that decided which of two equivalent items was
+/// Returns the secret random choices ("coins") of a revealed release, which decided which of two equivalent items was
 /// published.
 fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     let manifest = &released.manifest;
@@ -102,7 +102,8 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     }
     if MemoryPart::of(manifest).is_none() {
         bail!(
-            "{place}: `{name}` has no withheld siblings or wins, because its recipe has no `[memory]`; {how}"
+            "{place}: `{name}` has no withheld siblings (renamed games) or wins, because its recipe has no \
+             `[memory]`; {how}"
         );
     }
     let coins = Coins { games: released.games.iter().map(coin).collect() };
@@ -114,7 +115,7 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
                  ask its publisher to: arcade release PUBLIC --reveal HELD --out DIR"
             );
         }
-        bail!("{place}: `{name}` has no sibling of any game and no second win of any level");
+        bail!("{place}: `{name}` has no sibling (renamed copy) of any game and no second win of any level");
     }
     Ok(coins)
 }

@@ -20,7 +20,7 @@ pub(super) enum LeftoverKind {
     /// The unfinished folder of a release, report or export. If it contains finished jobs, the interrupted
     /// run can be resumed.
     Draft(Abandoned),
-    /// A release shard and its description.
+    /// A shard (a part of a release minted separately) and its description.
     Shard(String),
     /// An unfinished file. While this value holds it open, other processes do not consider it abandoned.
     File(#[expect(dead_code, reason = "the open file holds the lock")] File),

@@ -193,7 +193,7 @@ fn has_finished_jobs(out: &Path) -> bool {
     jobs.is_some_and(|jobs| jobs.flatten().any(is_result))
 }
 
-/// Mints the release or a shard, and reports the result.
+/// Mints the release or a shard (a part of the release), and reports the result.
 fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answer {
     let (out, resumed) = (&order.out, args.resumed(&order.out));
     let reporter = Reporter::new(console, tools.corpus, &resumed);

@@ -1,4 +1,4 @@
-//! Sealed releases: committing to a secret, and revealing it.
+//! Sealed releases, whose seed and witnesses are withheld: committing to a secret, and revealing it.
 
 use super::progress::Remarks;
 use super::summary::log_command;
