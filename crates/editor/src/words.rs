@@ -215,7 +215,8 @@ impl<'a> Words<'a> {
         all.filter(|(key, ..)| seen.insert(*key)).collect()
     }
 
-    /// Returns the distinct names of all sprite types, in order.
+    /// Returns the distinct names of all sprite types: the declared types in the order of their lines, then the
+    /// built-in types.
     pub(crate) fn sprite_names(&self) -> Vec<&'a str> {
         let mut seen = BTreeSet::new();
         let declared = self.sprites.iter().map(|sprite| sprite.name);

@@ -266,8 +266,9 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending, by weight. The requested mechanics come first. At least one mechanic is a
-/// danger that acts by itself.
+/// Draws `count` distinct mechanics and then an ending, in proportion to their weights. The requested mechanics come
+/// first. At least one mechanic is a danger that acts by itself. Returns `None` if too few mechanics have a positive
+/// weight.
 fn choose(
     count: usize,
     lead: Lead,
@@ -290,8 +291,9 @@ fn choose(
     Some(chosen)
 }
 
-/// Draws a partition of the ports, which are the mechanics' open roles. Merges pairs of ports until every mechanic is
-/// linked, every mover has its motion, and no port is idle. May then merge one more pair.
+/// Draws a partition of the ports, which are the mechanics' open roles. Ports in one class are filled by one sprite
+/// type. Merges pairs until all mechanics are connected by shared types, every type that should move has a rule of
+/// motion, and every type is needed. May then merge one more pair. Returns `None` if the pairs left do not suffice.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }
@@ -334,8 +336,8 @@ struct Draft {
 }
 
 impl Draft {
-    /// Returns `true` if the type that fills a port (an open role) would be useless, because it is a mover without
-    /// motion or because nothing needs it.
+    /// Returns `true` if the type that fills a port (an open role) would be useless, because it should move but has no
+    /// rule of motion, or because nothing needs it.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };

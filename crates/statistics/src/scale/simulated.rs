@@ -336,8 +336,8 @@ mod tests {
         Plan { games: 24, levels: 3, families, runs: 4, anchors, anchor_runs: 2, replicates: 0, spreads }
     }
 
-    /// The errors of the links between small months are as stated. The link for exactly the planners in the
-    /// calibration has the smallest error.
+    /// When small monthly releases are placed on a common scale, the stated errors of their shifts match the true
+    /// errors. A shift for exactly the planners in the calibration has a smaller error than a shift for any planner.
     #[test]
     fn links_are_as_exact_as_stated() {
         let trials: Vec<LinkTrial> =

@@ -86,12 +86,12 @@ pub(super) enum NoLine {
 }
 
 impl LineProcess {
-    /// Starts a program. If a guard command is given, the program runs behind a guard. File names in the
-    /// command are made absolute, because the process runs in a different folder.
+    /// Starts a player's program. If `guard` is not empty, it is a command that runs the program and stops it when
+    /// `arcade` ends. File names in the command are made absolute, because the process runs in a different folder.
     ///
     /// # Errors
-    /// Returns an error if the process cannot be started. The error kind `Interrupted` means that this
-    /// program is about to exit.
+    /// Returns an error if the process cannot be started. The error kind `Interrupted` means that `arcade` itself is
+    /// about to exit.
     pub(super) fn start(
         words: &[String],
         inherited: &[String],
