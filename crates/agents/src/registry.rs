@@ -22,7 +22,7 @@ macro_rules! planners {
         /// continues as if it had never been saved.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[serde(tag = "planner")]
-        #[allow(missing_docs, clippy::large_enum_variant, reason = "the types say what each is; players are few")]
+        #[allow(missing_docs, clippy::large_enum_variant, reason = "each variant is documented by its type; only a few players exist")]
         pub enum Player {
             $(#[serde(rename = $name)] $variant($type),)*
         }

@@ -2,7 +2,7 @@
 
 #![allow(
     rustdoc::broken_intra_doc_links,
-    reason = "comments on arguments are the words of the help, brackets and all"
+    reason = "doc comments on arguments become the help text, including brackets"
 )]
 
 #[macro_use]

@@ -220,7 +220,7 @@ impl Tally {
             "on levels of rejected games",
             "calls per game",
         ];
-        let note = "Forward-model calls by the fate of the judged candidates: accepted, rejected by this \
+        let note = "Forward-model calls by the outcome for the judged candidates: accepted, rejected by this \
                     judge or a later judge, or accepted as a level of a rejected game. Gates count only \
                     the calls of their own searches.";
         let mut judges: Vec<(&String, &JudgeCost)> = self.judges.iter().collect();

@@ -50,7 +50,7 @@ impl GameSurvey {
         let seed = *self.seed.as_bytes();
         let of = (row::FORM, engine::SEMANTICS, game.digest(), levels, &*self.criteria, seed);
         Digest::of(
-            to_canonical_json(&of).expect("checked criteria have no numbers that JSON lacks").as_bytes(),
+            to_canonical_json(&of).expect("checked criteria contain only finite numbers").as_bytes(),
         )
     }
 

@@ -107,7 +107,7 @@ impl Recipe {
     /// beacon's value: `known` follows from `parent`, and the beacon's value is not known yet.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
-        secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
+        secret::committed(&recipe).expect("a checked recipe contains only finite numbers")
     }
 
     /// Returns the seed from which everything in the release is derived. `secret` is a sealed release's secret.

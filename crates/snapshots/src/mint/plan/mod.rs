@@ -161,7 +161,7 @@ impl<'a> Plan<'a> {
             // The canary is derived from the recipe's digest, so that distinct recipes have distinct
             // canaries.
             None => canary(
-                &canonical_digest(self.recipe).expect("a checked recipe has no numbers that JSON lacks"),
+                &canonical_digest(self.recipe).expect("a checked recipe contains only finite numbers"),
             ),
             Some(commitment) => canary(&commitment),
         }

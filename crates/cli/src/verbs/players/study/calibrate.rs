@@ -255,7 +255,7 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
         if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
             bail!(
                 "{name}: it did not play the first release of the scale, so it isn't an anchor (a reader that \
-                 links months); place it with `arcade study scale`, and omit it from --readers"
+                 plays every release); place it with `arcade study scale`, and omit it from --readers"
             );
         }
     }

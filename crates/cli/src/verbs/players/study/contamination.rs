@@ -60,8 +60,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.document(&json!({ "release": name, "root": root, "alpha": ALPHA, "power": power }))?;
         console.say(has);
         console.say(format_args!(
-            "power of the tests if every level is played once on each side, at a significance level of \
-             {ALPHA} for both tests:"
+            "power of the tests if every level is played once in its published and once in its withheld form, \
+             at a significance level of {ALPHA} for both tests together:"
         ));
         say_power(&power, console);
         return Ok(true);

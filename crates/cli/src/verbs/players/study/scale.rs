@@ -86,7 +86,7 @@ fn words(month: &MonthAbility) -> String {
             .map_or("is not known".to_owned(), |low| format!("may be as low as {low:.2}, below 0.5"));
         let anchors = count(*anchors as usize, "anchor");
         return format!(
-            "not placed ({played}): the release is linked by planners and {anchors}, and the correlation \
+            "not placed ({played}): only planners and {anchors} played this release, and the correlation \
              between the difficulty for planners and for readers {low}; calibrate the release with at \
              least two anchors, which are readers that also played the first release (--readers)"
         );
