@@ -11,7 +11,7 @@ use crate::{Game, State};
 /// The possible consequences of one execution of an effect.
 #[derive(Clone, Debug)]
 pub struct EffectRow {
-    /// The effects, in order.
+    /// The changes that the effect makes, in the order of execution.
     pub effects: Vec<EffectSummary>,
     /// `true` if the first sprite may move.
     pub moves_first: bool,

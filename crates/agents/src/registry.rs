@@ -100,7 +100,7 @@ impl PlannerSpec {
         self.looks_ahead() && !SHALLOW.contains(&self.name())
     }
 
-    /// Returns a new player for the planner, with its own random streams.
+    /// Returns a new player for the planner, with its own random-number streams.
     pub fn player(&self, seed: Seed) -> Player {
         Player::of(&self.name, seed).expect("a parsed planner has a known name")
     }

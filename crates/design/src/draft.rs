@@ -45,7 +45,7 @@ pub struct Draft {
     pub measures: DraftMeasures,
     /// The answers, tokens and money that the draft used.
     pub spending: Spending,
-    /// The digest of all answers, in order.
+    /// The digest of all answers, in the order in which they were given.
     pub answers: Digest,
     /// The last rules that compiled.
     pub rules: Option<String>,
@@ -92,7 +92,7 @@ impl Draft {
     }
 }
 
-/// Returns the digest of the answers in a log, in order. It does not depend on times or interruptions.
+/// Returns the digest of the answers in a log, in the log's order. It does not depend on times or interruptions.
 pub(crate) fn digest(events: &[Event]) -> Digest {
     let answers = events.iter().filter_map(|event| match event {
         Event::Reply(reply) => Some((reply.step, reply.attempt, &reply.text)),

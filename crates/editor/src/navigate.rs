@@ -25,7 +25,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Returns, in order, the words that refer to the symbol.
+    /// Returns the words that refer to the symbol, in the order of the text.
     pub(crate) fn places<'b>(self, words: &'b Words<'a>) -> impl Iterator<Item = &'b Word<'a>> {
         words.all().filter(move |word| Subject::of(word) == Some(self))
     }
@@ -54,7 +54,8 @@ pub(crate) fn symbol_at(level: &str, at: usize) -> Option<(Span, &str)> {
     Some((span, &level[span.start..span.end]))
 }
 
-/// Returns, in order, the positions of all references to the symbol at byte `at`, including its declaration.
+/// Returns, in the order of the text, the positions of all references to the symbol at byte `at`, including its
+/// declaration.
 pub fn references(source: &str, at: usize) -> Vec<Span> {
     let words = Words::of(source);
     let Some(subject) = words.at(at).and_then(Subject::of) else { return Vec::new() };

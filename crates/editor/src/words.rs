@@ -183,7 +183,7 @@ impl<'a> Words<'a> {
         Words { lines: lines.collect(), sprites }
     }
 
-    /// Returns all words, in order.
+    /// Returns all words, in the order of the text.
     pub(crate) fn all(&self) -> impl Iterator<Item = &Word<'a>> {
         self.lines.iter().flat_map(|line| &line.words)
     }

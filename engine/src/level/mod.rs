@@ -77,8 +77,8 @@ impl fmt::Display for Level {
 }
 
 impl Game {
-    /// Returns the sprites that a level character places, in order. The result is empty for spaces and
-    /// unmapped characters.
+    /// Returns the sprites that a level character places, in the order of its LevelMapping line. The result is empty
+    /// for spaces and unmapped characters.
     pub fn places(&self, symbol: u8) -> &[SpriteType] {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
     }

@@ -76,17 +76,17 @@ impl World {
         &mut self.chance
     }
 
-    /// Returns the second random stream.
+    /// Returns the second random-number stream.
     pub(crate) fn jumps(&self) -> Chance {
         self.jumps
     }
 
-    /// Returns the second random stream, for drawing from it.
+    /// Returns the second random-number stream, for drawing from it.
     pub(crate) fn second_dice(&mut self) -> &mut Chance {
         &mut self.jumps
     }
 
-    /// Replaces both random streams.
+    /// Replaces both random-number streams.
     pub(crate) fn reseed(&mut self, chance: Chance, jumps: Chance) {
         (self.chance, self.jumps) = (chance, jumps);
     }

@@ -349,8 +349,8 @@ impl Draft {
         all.filter(|(_, other)| **other == class).map(|(port, _)| *port).collect()
     }
 
-    /// Returns a mechanic to link to the others, preferably one that does not share a type with any other mechanic;
-    /// `None` if all are connected.
+    /// Returns a mechanic to connect to the others, preferably one that does not share a type with any other mechanic;
+    /// `None` if all mechanics are connected.
     fn lonely(&self, mechanics: usize) -> Option<usize> {
         let types: Vec<Merged> = (0..=u8::MAX)
             .map_while(|class| (usize::from(class) < self.ports.len()).then(|| self.members(class)))

@@ -46,7 +46,7 @@ struct Individual {
 }
 
 impl Rhea {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: RheaConfig, seed: Seed) -> Rhea {
         Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
     }

@@ -50,7 +50,7 @@ pub struct TouchEverything {
 }
 
 impl TouchEverything {
-    /// Creates a player with its own random stream.
+    /// Creates a player with its own random-number stream.
     pub fn new(seed: Seed) -> TouchEverything {
         TouchEverything {
             choices: seed.child("choices", 0).sampler(),

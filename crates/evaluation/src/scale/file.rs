@@ -117,7 +117,7 @@ pub struct MonthEntry {
     /// The text from which the seeds of the release's episodes were derived.
     pub seed: String,
     /// The mean difficulty relative to the first release, for planners and for readers (players that see only prompts).
-    /// The standard errors include the link error for arbitrary players in the dimension.
+    /// The standard errors hold for arbitrary players in the dimension, not only for the scale's players.
     pub shifts: [Estimate; 2],
     /// The shift in mean difficulty for exactly the scale's planners.
     pub planners_shift: Estimate,
@@ -159,7 +159,7 @@ pub struct LevelEntry {
     /// The level's digest.
     pub digest: Digest,
     /// The level's difficulty for planners and for readers (players that see only prompts). The standard errors exclude
-    /// the link error.
+    /// the error of the release's position on the scale ([`MonthEntry::link`]).
     pub difficulty: [Estimate; 2],
 }
 

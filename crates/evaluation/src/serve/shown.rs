@@ -15,7 +15,7 @@ const AVATAR: char = '@';
 /// A prompt's parsed content.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shown<'a> {
-    /// The sentences of the rules in order, including those about the keys.
+    /// The sentences of the rules, in the prompt's order, including the sentences about the keys.
     pub(super) rules: Vec<&'a str>,
     /// The rules as VGDL, if the prompt shows them in this form.
     pub(super) vgdl: Option<&'a str>,

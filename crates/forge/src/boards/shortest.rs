@@ -38,7 +38,7 @@ type Met = std::collections::HashSet<SearchKey>;
 
 /// Searches for a shortest win layer by layer. Once half of the calls are spent, keeps only the most promising states
 /// per layer, spread over the avatar's positions. In a stochastic game, the search considers only the start state's own
-/// random future and ignores the random stream when it compares states. Such a search proves nothing.
+/// random future and ignores the random-number stream when it compares states. Such a search proves nothing.
 pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -> Found {
     let is_certain = analysis.is_deterministic_from(start);
     let abstraction = analysis.abstraction(start).without_chance();

@@ -12,7 +12,7 @@ pub struct SurveyedGame {
     pub goal: String,
     /// The judged game.
     pub game: Game,
-    /// The judged levels, in order.
+    /// The judged levels, in the game's order.
     pub levels: Vec<Level>,
     /// The panel's findings about each level, and about the levels as a whole.
     pub report: GameReport,

@@ -16,7 +16,7 @@ impl Clusters {
         Clusters { within, leaders: Vec::new(), sizes: Vec::new() }
     }
 
-    /// Adds the next game, given its distances to all earlier games, in order.
+    /// Adds the next game, given its distances to all earlier games in the order in which they were added.
     pub(super) fn add(&mut self, distances: &[f64]) {
         match self.leaders.iter().position(|leader| distances[*leader] < self.within) {
             Some(cluster) => self.sizes[cluster] += 1,

@@ -206,7 +206,7 @@ impl Map {
         self
     }
 
-    /// Returns the types placed by the map, in order and with repetitions.
+    /// Returns the types placed by the map, first in rooms and then in links, with repetitions.
     pub(crate) fn types(&self) -> impl Iterator<Item = &str> {
         let rooms = self.rooms.iter();
         let placed = rooms.flat_map(|room| room.items.iter().map(|item| &item.stype).chain(&room.fill));

@@ -25,7 +25,7 @@ pub(crate) struct Job {
 /// The plan for a level with pushable objects.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Jobs {
-    /// The pushes, in order.
+    /// The pushes, in the order in which the avatar makes them.
     pub(crate) jobs: Vec<Job>,
     /// `true` if the last job bridges the gap in front of the sprites to visit.
     pub(crate) bridge: bool,

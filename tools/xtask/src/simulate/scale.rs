@@ -45,7 +45,7 @@ fn errors(found: &[(f64, f64)]) -> [TableCell; 3] {
     [share(square.sqrt()), share(stated), share(covered as f64 / count)]
 }
 
-/// Simulates the link between two months of 120 games with 5 levels each.
+/// Simulates estimating the difference in difficulty between two months of 120 games with 5 levels each.
 pub(super) fn link(args: &Args) -> Table {
     let count = args.trials.unwrap_or(200);
     let cases = [

@@ -64,9 +64,9 @@ pub struct ProcessConfig {
     pub timeout: Duration,
     /// The names of environment variables that the process inherits in addition to the default variables.
     pub inherited: Vec<String>,
-    /// The command for a guard: a program that calls [`guard`](guard()) with its remaining arguments. The
-    /// arguments are the folder, `--`, and the words of the player's command. If the guard command is empty,
-    /// the process is started directly, and outlives this program if this program is killed.
+    /// The command for a guard, which supervises the player: a program that calls [`guard`](guard()) with its remaining
+    /// arguments. The arguments are the folder, `--`, and the words of the player's command. If the guard command is
+    /// empty, the player's process is started directly, and survives if the calling program is killed.
     pub guard: Vec<OsString>,
 }
 

@@ -62,8 +62,8 @@ const FURNISHED: usize = 4;
 /// The maximum length of a fastest win in ticks, as a multiple of the number of steps that it would take without carts.
 const DELAY: f64 = 1.5;
 
-/// A yard (a puzzle about carrying parcels) in the characters of [`YardRules::game`], with a winning sequence of
-/// actions.
+/// A yard (a puzzle about carrying parcels) with a winning sequence of actions. Its text uses the level characters of
+/// [`YardRules::game`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct YardLevel {
     /// The level, as text.
