@@ -27,7 +27,7 @@ pub struct EffectRow {
 }
 
 impl EffectRow {
-    /// Returns the row for a game's first effect.
+    /// Returns the row for a game's first effect; `None` if the game has no effect.
     pub fn of_first(game: &Game) -> Option<EffectRow> {
         let summary = &game.0.effects.first()?.summary;
         Some(EffectRow {

@@ -15,7 +15,7 @@ pub(crate) enum Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// Returns the symbol to which a word refers.
+    /// Returns the symbol to which a word refers; `None` if the word is not a symbol.
     pub(crate) fn of(word: &Word<'a>) -> Option<Subject<'a>> {
         match word.role {
             Role::Declaration | Role::Sprite => Some(Subject::Sprite(word.text)),
@@ -40,7 +40,8 @@ pub fn definition(source: &str, at: usize) -> Option<Span> {
     subject.places(&words).find(declares).map(|word| word.span)
 }
 
-/// Returns the position in a game where the character at byte `at` of a level is declared.
+/// Returns the position in a game where the character at byte `at` of a level is declared; `None` if it is not
+/// declared.
 pub fn level_definition(source: &str, level: &str, at: usize) -> Option<Span> {
     let (_, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);

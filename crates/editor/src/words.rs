@@ -188,14 +188,14 @@ impl<'a> Words<'a> {
         self.lines.iter().flat_map(|line| &line.words)
     }
 
-    /// Returns the word at byte `at`, or the word that ends at that byte.
+    /// Returns the word at byte `at`, or the word that ends at that byte; `None` if there is no such word.
     pub(crate) fn at(&self, at: usize) -> Option<&Word<'a>> {
         let mut around = self.all().filter(|word| word.span.start <= at && at <= word.span.end);
         let first = around.next()?;
         Some(around.next().filter(|next| next.span.start == at).unwrap_or(first))
     }
 
-    /// Returns the first sprite line with this name.
+    /// Returns the first sprite line with this name; `None` if there is no such line.
     pub(crate) fn sprite(&self, name: &str) -> Option<&Sprite<'a>> {
         self.sprites.iter().find(|sprite| sprite.name == name)
     }

@@ -161,8 +161,8 @@ impl Signatures {
         self.signatures.get(file).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the key set with the given number. The set must not be trusted as it is, because anyone may
-    /// have written it.
+    /// Returns the key set with the given number; `None` if there is no such set. The set must not be trusted as it is,
+    /// because anyone may have written it.
     pub fn set(&self, version: u32) -> Option<&KeySet> {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }

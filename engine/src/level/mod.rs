@@ -392,7 +392,7 @@ impl LevelReader<'_> {
         free.next().filter(|_| free.next().is_none() && symbol.is_ascii_alphanumeric())
     }
 
-    /// Returns the first avatar-placing character in the LevelMapping.
+    /// Returns the first avatar-placing character in the LevelMapping; `None` if no character places an avatar.
     fn avatar_symbol(&self) -> Option<char> {
         let rules = &self.game.0;
         let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());

@@ -204,7 +204,7 @@ fn band(at: usize, of: usize) -> usize {
     (at * BANDS / of.max(1)).min(BANDS - 1)
 }
 
-/// Returns the side of the border on which a cell lies, as an index into [`WAYS`].
+/// Returns the side of the border on which a cell lies, as an index into [`WAYS`]; `None` for inner cells.
 fn side(grid: Grid, cell: usize) -> Option<usize> {
     WAYS.into_iter().position(|way| grid.shift(cell, way).is_none())
 }

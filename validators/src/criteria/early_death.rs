@@ -167,7 +167,7 @@ impl NoEarlyDeath {
         Survival { survived, complete, longest, idle, calls: calls + spent }
     }
 
-    /// Plays the first [`EarlyDeath::ticks`] ticks with the actions that `choose` selects.
+    /// Plays the first [`NoEarlyDeath::ticks`] ticks with the actions that `choose` selects.
     fn play_start(
         &self,
         case: Case<'_>,

@@ -8,7 +8,7 @@ pub(crate) const WIDTH: usize = Action::ALL.len();
 /// The index of a branch without a node.
 pub(crate) const UNEXPANDED: u32 = u32::MAX;
 
-/// Chooses a branch without a node, uniformly at random.
+/// Chooses a branch without a node, uniformly at random; `None` if every branch has a node.
 pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usize> {
     let open = children.iter().filter(|&&child| child == UNEXPANDED).count();
     if open == 0 {

@@ -56,7 +56,7 @@ impl Limits {
     }
 }
 
-/// Returns the number of threads requested by the user.
+/// Returns the number of threads requested by the user; `None` without `--jobs`.
 pub(crate) fn jobs() -> Option<usize> {
     LIMITS.get().and_then(|limits| limits.jobs)
 }

@@ -492,8 +492,8 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     Ok(is_ours && (!is_there(&episodes)? || names_in(&episodes)?.is_empty()))
 }
 
-/// Returns the name of the first field that differs between two evaluations. The model's server is ignored,
-/// because it does not affect the model's answers.
+/// Returns the name of the first field that differs between two evaluations; `None` if no field differs. The model's
+/// server is ignored, because it does not affect the model's answers.
 fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
     let fields = |settings: &Settings| {
         let mut fields = serde_json::to_value(settings).expect("settings are plain data");

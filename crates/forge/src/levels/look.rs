@@ -112,7 +112,7 @@ impl Constraints {
         value >= 1.0
     }
 
-    /// Returns the name of the first unmet constraint.
+    /// Returns the name of the first unmet constraint; `None` if all constraints are met.
     fn obstacle(&self) -> Option<&'static str> {
         self.values.iter().position(|&value| value < 1.0).map(|at| NAMES[at])
     }

@@ -27,7 +27,8 @@ impl Clusters {
         }
     }
 
-    /// Returns the Good–Turing estimate of the probability that the next game belongs to no known cluster.
+    /// Returns the Good–Turing estimate of the probability that the next game belongs to no known cluster; `None`
+    /// without games.
     pub(super) fn unseen(&self) -> Option<f64> {
         good_turing(self.sizes.iter().copied())
     }

@@ -282,7 +282,8 @@ impl<'a> Hint<'a> {
         if adjective == "open" && !is_door() { None } else { named(".", adjective) }
     }
 
-    /// Returns the mark (the sign) for the type's state.
+    /// Returns the mark (the sign) for the type's state; `None` if the state has its own figure, or the table has no
+    /// mark for it.
     pub(crate) fn mark(self) -> Option<u16> {
         let adjective = self.adjective?;
         if self.state().is_some() {
@@ -307,7 +308,7 @@ impl<'a> Hint<'a> {
     }
 }
 
-/// Returns the table entry for a role (`@`) or an adjective (`.`).
+/// Returns the table entry for a role (`@`) or an adjective (`.`); `None` if the table has no such entry.
 fn named(sign: &str, word: &str) -> Option<u16> {
     WORDS.get(format!("{sign}{}", word.to_lowercase()).as_str()).copied()
 }

@@ -226,7 +226,7 @@ fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
     pictures
 }
 
-/// Returns the variant of the key that opens a gate.
+/// Returns the variant of the key that opens a gate; `None` if no type that is drawn as a key opens it.
 fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize> {
     let lock = analysis.locks().iter().find(|lock| lock.stype == gate)?;
     let key = match lock.key {

@@ -216,7 +216,7 @@ impl Recipe {
         self.puzzle_parts().fold(generated, |all, part| all.saturating_add(part.games))
     }
 
-    /// Returns the section for one kind of puzzle.
+    /// Returns the section for one kind of puzzle; `None` if the recipe has no such section.
     pub fn puzzles_of(&self, kind: PuzzleKind) -> Option<&PuzzlePart> {
         match kind {
             PuzzleKind::Pushing => self.puzzles.as_ref(),

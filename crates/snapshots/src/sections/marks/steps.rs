@@ -76,7 +76,7 @@ impl Falls {
 }
 
 /// Returns the mean fraction of episodes won over the selected levels and commitments (numbers of actions per decision)
-/// in a game.
+/// in a game; `None` if the selection is empty.
 fn rate(
     asked: &MarksPart,
     game: &GameMarks,

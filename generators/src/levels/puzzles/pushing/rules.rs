@@ -142,7 +142,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     }
 }
 
-/// Finds a placed type that stops only pushed objects.
+/// Finds a placed type that stops only pushed objects; `None` if there is no such type.
 fn find_sill(
     analysis: &Analysis,
     palette: &Palette,
