@@ -52,9 +52,9 @@ fn is_zero(count: &u64) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JudgeCost {
-    /// The number of judged candidates.
+    /// The number of candidates that the judge examined.
     pub asked: u64,
-    /// The number of rejected candidates.
+    /// The number of candidates that the judge rejected.
     pub refused: u64,
     /// The forward-model calls spent on levels and games that were accepted.
     pub calls_accepted: u64,
@@ -65,7 +65,7 @@ pub struct JudgeCost {
 }
 
 impl JudgeCost {
-    /// Returns the total number of calls.
+    /// Returns the total number of forward-model calls.
     pub fn calls(&self) -> u64 {
         self.calls_accepted + self.calls_refused + self.calls_lost
     }

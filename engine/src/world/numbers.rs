@@ -179,7 +179,7 @@ impl World {
         self.avatar != NONE
     }
 
-    /// Adds a shield for this tick.
+    /// Adds a shield (the disabling of some interactions) for the rest of this tick.
     pub(crate) fn shield(&mut self, shield: (SpriteType, SpriteType, u16)) {
         if let Err(at) = self.shields.binary_search(&shield) {
             self.shields.insert(at, shield);

@@ -78,7 +78,7 @@ impl World {
         }
     }
 
-    /// Walks a type's chain.
+    /// Walks the chain of a type's sprites, and checks every sprite in it.
     fn recount_group(&self, rules: &Rules, stype: SpriteType, alive: &mut [bool]) -> Result<Group, String> {
         let kept = self.group(stype);
         let scenery = self.scenery_of(stype).len() as u16;

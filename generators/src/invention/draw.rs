@@ -79,7 +79,7 @@ impl Census {
         is_invented
     }
 
-    /// Returns all counts, by pattern.
+    /// Returns the number of games for each pattern.
     pub fn all(&self) -> impl Iterator<Item = (&str, u32)> {
         self.uses.iter().map(|(pattern, uses)| (pattern.as_str(), *uses))
     }
@@ -149,7 +149,7 @@ const SAMPLES: u64 = 6_000;
 /// The rarity of a mechanic that is part of sound draws (draws that can become a game) as often as the average
 /// mechanic.
 const USUAL: u64 = 16;
-/// The maximum rarity of a mechanic.
+/// The maximum factor that [`rarity`] returns for a mechanic.
 const RAREST: u64 = 64;
 
 /// Returns the factor by which a mechanic's weight is increased because it is rarely part of a draw that can become a

@@ -34,7 +34,7 @@ const MAX_STATES: usize = 2000;
 /// The number of random episodes to try before a search.
 const RANDOM_PLAYS: u64 = 24;
 
-/// The result for one seed.
+/// The result of the search with one random seed.
 struct Survival {
     /// `true` if a sequence of actions survived.
     survived: bool,

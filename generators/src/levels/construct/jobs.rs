@@ -16,7 +16,7 @@ pub(crate) struct Job {
     pub(crate) merges: bool,
     /// `true` if the pushed sprite, or the sprite that it turns into, remains in the cell.
     pub(crate) stays: bool,
-    /// `true` if the partner is removed.
+    /// `true` if the push removes the partner.
     pub(crate) fills: bool,
     /// `true` if the avatar can walk over the partner.
     pub(crate) walkable: bool,

@@ -14,7 +14,7 @@ const SEGMENT: usize = 6;
 /// The minimum side length of the part of a level to redraw.
 const PART: usize = 4;
 
-/// A kind of change.
+/// A kind of edit of a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edit {
     /// Moves a sprite to a nearby cell. A straight mover stays in its row or column.

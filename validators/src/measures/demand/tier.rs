@@ -12,9 +12,9 @@ pub enum Tier {
     One = 1,
     /// Some decisions, and one trap that punishes hasty decisions.
     Two = 2,
-    /// Long plans against two traps.
+    /// Many decisions, and two traps that punish short-sighted plans.
     Three = 3,
-    /// Very long plans against three traps.
+    /// Very many decisions, and three traps.
     Four = 4,
 }
 
