@@ -29,7 +29,7 @@ base::named_enum! {
 pub struct Draft {
     /// The index of the draft, starting at 0.
     pub number: u64,
-    /// The result.
+    /// The outcome of the draft.
     pub status: Status,
     /// The stage in which the draft ended.
     pub stage: Stage,

@@ -140,7 +140,7 @@ mod tests {
     use std::collections::{BTreeMap, BTreeSet};
 
     /// Requests candidates from a search, checks that each passes the static conditions and can be built, and returns
-    /// the number of different candidates.
+    /// the number of distinct candidates.
     fn check(mut search: impl Search<Candidate = Invention>) -> usize {
         let mut keys = BTreeSet::new();
         for _ in 0..4 {

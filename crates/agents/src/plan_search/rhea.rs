@@ -82,9 +82,9 @@ impl Rhea {
         population
     }
 
-    /// Creates a child of two different plans. Each gene comes from one of the two plans, and then a few genes are
-    /// redrawn. If there is only one plan, creates a mutant of that plan. There is no selection of parents, because
-    /// the reference's tournament is as large as the set of parents.
+    /// Creates a child of two distinct plans. Each gene comes from one of the two plans, and then a few genes are
+    /// redrawn. If there is only one plan, creates a mutant of that plan. There is no selection of parents, because the
+    /// reference's tournament is as large as the set of parents.
     fn child(
         &self,
         population: &[Individual],

@@ -3,7 +3,7 @@
 use base::Sampler;
 use engine::Action;
 
-/// The maximum number of actions.
+/// The maximum number of actions of a game, and thus of branches of a node.
 pub(crate) const WIDTH: usize = Action::ALL.len();
 /// The index of a branch without a node.
 pub(crate) const UNEXPANDED: u32 = u32::MAX;

@@ -11,7 +11,7 @@ pub(super) struct Key {
     secret: String,
 }
 
-/// The minimum length of keys that are searched for in answers. A shorter key could be an ordinary word.
+/// The minimum length, in bytes, of keys that are searched for in answers. A shorter key could be an ordinary word.
 const MIN_SEARCHED: usize = 16;
 
 /// The text that replaces a key in a server's reply.

@@ -52,7 +52,8 @@ pub struct ScaleFile {
     /// The standard deviations and slopes in the statistical model.
     pub spreads: SpreadsEntry,
     /// The covariance matrix, stored row by row, of three groups of parameters: the examinees' abilities, the origins
-    /// for planners and for readers (players that see only prompts), and the planners' ease.
+    /// for planners and for readers (players that see only prompts), and the planners' ease (their mean logit on the
+    /// first release).
     pub covariance: Vec<f64>,
     /// The mean difficulties of the first release for planners and for readers (players that see only prompts), in the
     /// coordinates of the abilities.

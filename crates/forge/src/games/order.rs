@@ -22,7 +22,7 @@ pub struct GameOrder {
     /// The minimum number of interactions in a game, including guards (rules that only keep sprites on the board and
     /// out of walls).
     pub least_interactions: usize,
-    /// The minimum number of different interactions, not counting guards (rules that only keep sprites on the board),
+    /// The minimum number of distinct interactions, not counting guards (rules that only keep sprites on the board),
     /// that the wins of all levels execute in total.
     pub least_mechanics: usize,
     /// The criteria that each game must meet; see [`GameOrder::criteria_by_default`].

@@ -71,7 +71,7 @@ pub struct Looks {
     looks: Vec<Look>,
     /// For each type, `true` if its sprites are visible to players.
     visible: Vec<bool>,
-    /// The types whose sprites can be visible in some episode.
+    /// The types whose sprites can be visible in at least one episode.
     shown: Vec<SpriteType>,
     /// `true` if avatars can hold resources or have health.
     holdings: bool,

@@ -204,7 +204,7 @@ impl Recipe {
         parts.fold(0, |all, (games, levels)| all.saturating_add(games.saturating_mul(levels)))
     }
 
-    /// Returns the number of games.
+    /// Returns the total number of games.
     pub fn games(&self) -> u32 {
         self.corpus.games.saturating_add(self.new_games())
     }

@@ -184,7 +184,7 @@ pub(crate) struct Copy {
     title: String,
 }
 
-/// The maximum length of the folder name for a copy.
+/// The maximum length of the folder name for a copy, in characters.
 const MAX_FOLDER: usize = 60;
 
 pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {

@@ -11,7 +11,7 @@ use engine::analysis::{Motion, Role, Steering};
 const NEAR: usize = 2;
 /// The maximum number of wall cells that move together.
 const SEGMENT: usize = 6;
-/// The minimum side length of the part of a level to redraw.
+/// The minimum side length, in cells, of the part of a level to redraw.
 const PART: usize = 4;
 
 /// A kind of edit of a level.

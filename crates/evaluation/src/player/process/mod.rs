@@ -1,8 +1,8 @@
 //! External agents: processes that communicate through lines of JSON (`docs/how-to/agents.md`).
 //!
-//! An agent's process receives only facts that a player may know. It does not receive the level source, the
-//! forward model, the seed, or the path to a witness. The process runs in its own empty folder, with a
-//! reduced environment.
+//! An agent's process receives only facts that a player may know. It does not receive the level source, the forward
+//! model, the seed, or the path to a witness (a recorded winning episode). The process runs in its own empty folder,
+//! with a reduced environment.
 
 mod child;
 #[cfg(unix)]

@@ -37,7 +37,7 @@ base::with_defaults! {
     }
 }
 
-/// The minimum side length of boards.
+/// The minimum side length of boards, in cells.
 const LEAST_SIDE: usize = 7;
 /// The fraction of the inner cells that are walls.
 const WALLS: f64 = 0.08;

@@ -40,8 +40,8 @@ base::with_defaults! {
     }
 }
 
-/// The minimum side length of a board, including the row of the fuse (the time limit). Smaller boards have no room for
-/// tracks.
+/// The minimum side length of a board, in cells, including the row of the fuse (the time limit). Smaller boards have no
+/// room for tracks.
 const LEAST_SIDE: usize = 6;
 /// The number of inner cells on a board of typical size, which gets the configured number of carts.
 const USUAL: f64 = 80.0;

@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// Number of parametric bootstrap replicates, for the interval of the correlation and the bias of the spreads
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u64).range(..=10_000))]
     replicates: u64,
-    /// Text to derive the episodes' randomness from; different text gives new episodes
+    /// Text to derive the episodes' randomness from; another text gives new episodes
     #[arg(long, value_name = "TEXT", default_value = "calibrate")]
     seed: String,
     /// The name of the release on the scale [default: the name of its folder]
