@@ -65,7 +65,7 @@ macro_rules! verbs {
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 
         fn answer(Cli { verb, limits, .. }: &Cli, console: &Console) -> Answer {
-            // The guard of a player runs without a thread pool.
+            // The guard of a player (its supervising process) runs without a thread pool.
             if !matches!(verb, Verb::PlayerGuard(_)) {
                 limits.apply()?;
             }

@@ -217,7 +217,9 @@ impl Signatures {
             };
             if statement.root != *root || statement.release != release {
                 let (name, other) = (&statement.release, statement.root);
-                faults.push(format!("{file}: the statement is about a different release, `{name}` with root {other}"));
+                faults.push(format!(
+                    "{file}: the statement is about a different release, `{name}` with root {other}"
+                ));
                 continue;
             }
             let signed = self.judge_statement(file, statement, anchor);

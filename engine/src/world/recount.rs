@@ -158,7 +158,10 @@ impl World {
         }
         let used = alive.iter().filter(|&&alive| alive).count();
         if used + holes != self.sprites.len() {
-            return Err(format!("{used} used slots and {holes} free slots do not add up to {}", self.sprites.len()));
+            return Err(format!(
+                "{used} used slots and {holes} free slots do not add up to {}",
+                self.sprites.len()
+            ));
         }
         let mut moved: Vec<Slot> = self.moved.clone();
         moved.sort_unstable();
@@ -199,7 +202,10 @@ impl World {
         let holders =
             self.overrides.iter().map(|overrides| overrides.holder).filter(|&holder| holder != NONE);
         if holders.clone().count() + rules.types.len() != self.overrides.len() {
-            return Err("the number of overrides does not match the types and the sprites with their own values".to_owned());
+            return Err(
+                "the number of overrides does not match the types and the sprites with their own values"
+                    .to_owned(),
+            );
         }
         if let Some(holder) = holders.clone().find(|&holder| self.overrides(holder).holder != holder) {
             return Err(format!("slot {holder} has overrides that it does not use"));

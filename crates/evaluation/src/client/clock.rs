@@ -22,7 +22,10 @@ pub struct SystemClock {
 
 impl SystemClock {
     /// Creates a clock that starts at zero.
-    #[expect(clippy::disallowed_methods, reason = "waits and latencies are reported, but never affect an action")]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "waits and latencies are reported, but never affect an action"
+    )]
     pub fn start() -> SystemClock {
         SystemClock { start: Instant::now() }
     }

@@ -18,7 +18,10 @@ const MIN_SEARCHED: usize = 16;
 const HIDDEN: &str = "[key]";
 
 /// Reads an environment variable. The client reads only variables that contain keys.
-#[expect(clippy::disallowed_methods, reason = "keys come only from the environment, and never affect an action")]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "keys come only from the environment, and never affect an action"
+)]
 pub(super) fn environment(variable: &str) -> Option<String> {
     std::env::var(variable).ok()
 }

@@ -137,7 +137,10 @@ impl Map {
         }
         if let Some(room) = map.unreachable() {
             let line = map.rooms[room].name.clone();
-            return Err(MapError { line, message: "no chain of links leads from the first room to this room".to_owned() });
+            return Err(MapError {
+                line,
+                message: "no chain of links leads from the first room to this room".to_owned(),
+            });
         }
         Ok(map)
     }

@@ -22,9 +22,9 @@ use std::path::{Path, PathBuf};
 
 /// Measures the difficulty of the levels of a release on one scale for all months (see `arcade docs scale`).
 ///
-/// Examinees that never change play every level, with randomness that no mint uses. The command writes to DIR:
-/// scale.json, and plays/ with one results folder per examinee. With --scale, the release is added to an earlier scale,
-/// whose examinees play.
+/// Examinees (reference players that never change) play every level, with random seeds that no mint uses. The command
+/// writes to DIR: scale.json, and plays/ with one results folder per examinee. With --scale, the release is added to an
+/// earlier scale, whose examinees play.
 ///
 /// Exit status 0: calibrated. 2: malformed input. 3: the disk failed; --resume continues. 128 + signal: interrupted;
 /// --resume continues.
