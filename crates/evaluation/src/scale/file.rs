@@ -51,9 +51,9 @@ pub struct ScaleFile {
     pub examinees: Vec<ExamineeEntry>,
     /// The standard deviations and slopes in the statistical model.
     pub spreads: SpreadsEntry,
-    /// The covariance matrix, stored row by row, of three groups of parameters: the examinees' abilities, the origins
-    /// for planners and for readers (players that see only prompts), and the planners' ease (their mean logit on the
-    /// first release).
+    /// The covariance matrix of three groups of parameters, stored row by row. The groups are the examinees' abilities,
+    /// the origins for planners and for readers (players that see only prompts), and the planners' ease (their mean
+    /// logit on the first release).
     pub covariance: Vec<f64>,
     /// The mean difficulties of the first release for planners and for readers (players that see only prompts), in the
     /// coordinates of the abilities.
