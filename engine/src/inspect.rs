@@ -11,7 +11,7 @@ use crate::{Game, State};
 /// The possible consequences of one execution of an effect.
 #[derive(Clone, Debug)]
 pub struct EffectRow {
-    /// The effects, in order.
+    /// The changes that the effect makes, in the order of execution.
     pub effects: Vec<EffectSummary>,
     /// `true` if the first sprite may move.
     pub moves_first: bool,
@@ -27,7 +27,7 @@ pub struct EffectRow {
 }
 
 impl EffectRow {
-    /// Returns the row for a game's first effect.
+    /// Returns the row for a game's first effect; `None` if the game has no effect.
     pub fn of_first(game: &Game) -> Option<EffectRow> {
         let summary = &game.0.effects.first()?.summary;
         Some(EffectRow {

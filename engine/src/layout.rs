@@ -17,7 +17,7 @@ pub struct GameFiles {
 /// The maximum number of digits in a level's number.
 const MAX_DIGITS: usize = 6;
 
-/// Returns the number in a level's file name: 3 for `lvl3.txt` and for `zelda_lvl3.txt`.
+/// Returns the number in a level's file name: 3 for `lvl3.txt` and for `zelda_lvl3.txt`; `None` for any other name.
 pub fn level_number(name: &str) -> Option<usize> {
     level(name).map(|(_, number)| number)
 }

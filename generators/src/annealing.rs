@@ -117,7 +117,7 @@ impl<V: Variation> Annealing<V> {
         &self.variation
     }
 
-    /// Creates a starting candidate.
+    /// Creates a candidate from which a chain starts; `None` if all attempts fail.
     fn start(&mut self) -> Option<V::Candidate> {
         (0..STARTS).find_map(|_| {
             self.started += 1;

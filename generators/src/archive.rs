@@ -20,7 +20,7 @@ pub struct Axis {
     pub name: String,
     /// The range divided into bins, as (from, to). Values outside the range belong to the first or the last bin.
     pub range: (f64, f64),
-    /// The number of bins.
+    /// The number of bins into which the axis is divided.
     pub bins: usize,
 }
 
@@ -48,7 +48,7 @@ impl Axis {
 pub enum AddStatus {
     /// The candidate is the first in its cell.
     New,
-    /// The candidate replaced a worse candidate.
+    /// The candidate replaced a worse candidate in its cell.
     Improved,
     /// The archive does not store the candidate.
     Rejected,
@@ -165,7 +165,7 @@ impl<C> Archive<C> {
         cells
     }
 
-    /// Returns a cell's elite.
+    /// Returns the best candidate in a cell.
     pub fn elite(&self, cell: usize) -> Option<&Evaluated<C>> {
         self.elites.get(&cell)
     }

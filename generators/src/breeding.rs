@@ -15,11 +15,11 @@ pub(crate) struct Breeding<'a, V: Variation> {
     variation: &'a V,
     key: Key<'a, V::Candidate>,
     seed: Seed,
-    /// The probability of crossover.
+    /// The probability that a proposal is a crossover of two parents.
     crossing: f64,
     /// The number of proposals so far. Each proposal draws from its own seed.
     drawn: u64,
-    /// The keys of all proposed candidates.
+    /// The keys of all candidates proposed so far, so that none is proposed twice.
     seen: BTreeSet<Digest>,
 }
 

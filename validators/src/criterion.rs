@@ -60,7 +60,7 @@ pub(crate) enum Stage {
 /// The subject of a game criterion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum About {
-    /// The players.
+    /// The players' results.
     Players,
     /// Winning play. Skips levels without a known win.
     Play,

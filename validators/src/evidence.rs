@@ -41,7 +41,7 @@ impl Evidence {
         Evidence { rule: Some(rule), ..self }
     }
 
-    /// Adds advice.
+    /// Adds advice on how to meet the criterion.
     #[must_use]
     pub fn advise(self, advice: impl Into<String>) -> Evidence {
         Evidence { advice: Some(advice.into()), ..self }

@@ -42,7 +42,7 @@ pub struct LevelSubject<'a> {
 pub struct GameSubject<'a> {
     /// The game to judge.
     pub game: &'a Game,
-    /// The game's levels, in order.
+    /// The game's levels, in the game's order.
     pub levels: &'a [Level],
 }
 
@@ -50,7 +50,7 @@ pub struct GameSubject<'a> {
 pub struct TogetherSubject<'a> {
     /// The game to judge.
     pub game: &'a Game,
-    /// The game's levels, in order.
+    /// The game's levels, in the game's order.
     pub levels: &'a [Level],
     /// The findings about each level.
     pub reports: &'a [Report],

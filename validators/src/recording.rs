@@ -8,7 +8,7 @@ use rayon::prelude::*;
 /// A level with the episodes that its validators played, from most to least informative.
 #[derive(Clone, Copy, Debug)]
 pub struct Recorded<'a> {
-    /// The recorded level.
+    /// The level on which the episodes were played.
     pub level: &'a Level,
     /// The recorded episodes.
     pub episodes: &'a [Episode],

@@ -36,7 +36,7 @@ impl Report {
         self.judgements.iter().all(|judgement| judgement.finding.verdict.is_pass())
     }
 
-    /// Returns the first unmet criterion.
+    /// Returns the first unmet criterion; `None` if all criteria are met.
     pub fn first_obstacle(&self) -> Option<&Judgement> {
         self.judgements.iter().find(|judgement| !judgement.finding.verdict.is_pass())
     }

@@ -62,20 +62,20 @@ impl Finding {
         self.searched.unwrap_or(0) + self.measured.as_ref().map_or(0, |rate| rate.calls) + ladder
     }
 
-    /// Adds a win rate.
+    /// Adds a measured win rate to the finding.
     #[must_use]
     pub fn measured(self, rate: Rate) -> Finding {
         Finding { measured: Some(rate), ..self }
     }
 
-    /// Adds evidence.
+    /// Adds evidence to the finding.
     #[must_use]
     pub fn seen(mut self, evidence: impl IntoIterator<Item = Evidence>) -> Finding {
         self.evidence.extend(evidence);
         self
     }
 
-    /// Adds episodes.
+    /// Adds played episodes to the finding.
     #[must_use]
     pub fn played(mut self, episodes: impl IntoIterator<Item = Episode>) -> Finding {
         self.episodes.extend(episodes);

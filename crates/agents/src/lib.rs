@@ -1,7 +1,7 @@
 //! Players of games: planners that look ahead with a forward model, and baselines for comparison with them.
 //!
 //! Budgets are counted in forward-model calls (one `step` of a copied state), never in time. A planner with the same
-//! seed and budget therefore plays the same episode on every machine. Separate random streams supply a planner's
+//! seed and budget therefore plays the same episode on every machine. Separate random-number streams supply a planner's
 //! choices, its imagined outcomes and the game's own randomness, so the planner never sees the game's true future
 //! (`docs/lab/decisions/0003-determinism.md`).
 #![cfg_attr(not(doctest), doc = "", doc = include_str!("../README.md"))]

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A player that commits to several actions at a time. It plans each action in the state that it imagines after the
 /// previous actions. In a deterministic game, the imagined state is the actual next state. In a stochastic game, it
-/// is one of many possible states, drawn from a random stream that is separate from those of the planner and the
+/// is one of many possible states, drawn from a random-number stream that is separate from those of the planner and the
 /// game. Like its planner, a player can be saved between two decisions.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct OpenLoop<P> {

@@ -21,15 +21,15 @@ pub trait Planner {
     fn plan(&mut self, game: &Game, state: &State, budget: Budget) -> (Action, u64);
 }
 
-/// The source of random streams for a planner's decisions. Each decision has its own streams, so it is enough to save
-/// a planner's seed and its number of decisions.
+/// The source of the random-number streams for a planner's decisions. Each decision has its own streams, so it is
+/// enough to save a planner's seed and its number of decisions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Streams {
     seed: Seed,
     decisions: u64,
 }
 
-/// The random streams for one decision: one for the planner's choices, and one for the imagined outcomes.
+/// The random-number streams for one decision: one for the planner's choices, and one for the imagined outcomes.
 pub(crate) struct Decision {
     pub(crate) choices: Sampler,
     imagined: Sampler,
@@ -40,7 +40,7 @@ impl Streams {
         Streams { seed, decisions: 0 }
     }
 
-    /// Returns the streams for the next decision.
+    /// Returns the random-number streams for the next decision.
     pub(crate) fn next(&mut self) -> Decision {
         let seed = self.seed.child("decision", self.decisions);
         self.decisions += 1;

@@ -26,7 +26,7 @@ base::with_defaults! {
 }
 
 /// Plays until the episode is over or a limit is reached. `seed` determines the game's randomness; the planner has
-/// its own random streams. If `seed` is a [`SeedPath`], the episode records the path.
+/// its own random-number streams. If `seed` is a [`SeedPath`], the episode records the path.
 pub fn play(
     game: &Game,
     level: &Level,

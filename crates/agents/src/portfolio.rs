@@ -55,7 +55,7 @@ pub struct Solved {
     pub solution: Solution,
     /// The number of forward-model calls across all searches and episodes.
     pub calls: u64,
-    /// The episodes that the planners played, in order.
+    /// The episodes that the planners played, in the order of play.
     pub plays: Vec<Play>,
 }
 

@@ -41,7 +41,7 @@ impl ReferencePlanner {
         self.planner.looks_ahead()
     }
 
-    /// Returns a new player for the planner, with its own random streams.
+    /// Returns a new player for the planner, with its own random-number streams.
     pub fn player(&self, seed: Seed) -> Player {
         self.planner.player(seed)
     }

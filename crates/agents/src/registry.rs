@@ -22,7 +22,7 @@ macro_rules! planners {
         /// continues as if it had never been saved.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[serde(tag = "planner")]
-        #[allow(missing_docs, clippy::large_enum_variant, reason = "the types say what each is; players are few")]
+        #[allow(missing_docs, clippy::large_enum_variant, reason = "each variant is documented by its type; only a few players exist")]
         pub enum Player {
             $(#[serde(rename = $name)] $variant($type),)*
         }
@@ -100,7 +100,7 @@ impl PlannerSpec {
         self.looks_ahead() && !SHALLOW.contains(&self.name())
     }
 
-    /// Returns a new player for the planner, with its own random streams.
+    /// Returns a new player for the planner, with its own random-number streams.
     pub fn player(&self, seed: Seed) -> Player {
         Player::of(&self.name, seed).expect("a parsed planner has a known name")
     }

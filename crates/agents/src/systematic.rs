@@ -33,7 +33,7 @@ pub struct Systematic {
 }
 
 impl Systematic {
-    /// Creates a player with its own random streams for choices and imagined outcomes.
+    /// Creates a player with its own random-number streams for choices and imagined outcomes.
     pub fn new(seed: Seed) -> Systematic {
         Systematic { streams: Streams::new(seed), plan: Vec::new(), pause: AHEAD, analysis: None }
     }

@@ -108,7 +108,7 @@ struct Node {
 }
 
 impl Width {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: WidthConfig, seed: Seed) -> Width {
         Width {
             config,

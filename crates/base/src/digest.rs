@@ -17,7 +17,7 @@ impl Digest {
         Digest(bytes)
     }
 
-    /// Returns the 32 bytes.
+    /// Returns the digest's 32 bytes.
     pub const fn as_bytes(&self) -> &[u8; 32] {
         &self.0
     }

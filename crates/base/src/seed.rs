@@ -29,7 +29,7 @@ impl Seed {
         Seed(*hasher.finalize().as_bytes())
     }
 
-    /// Returns the random stream for the decisions of a generator or planner.
+    /// Returns the random-number stream for the decisions of a generator or planner.
     pub fn sampler(self) -> Sampler {
         Sampler::new(self.0)
     }
@@ -45,7 +45,7 @@ impl Seed {
         Seed(bytes)
     }
 
-    /// Returns the 32 bytes.
+    /// Returns the seed's 32 bytes.
     pub const fn as_bytes(&self) -> &[u8; 32] {
         &self.0
     }

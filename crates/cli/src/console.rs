@@ -193,7 +193,7 @@ impl Console {
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {
-    #[expect(clippy::disallowed_methods, reason = "only remarks for people show it")]
+    #[expect(clippy::disallowed_methods, reason = "only messages for people show the elapsed time")]
     pub(crate) fn start() -> Stopwatch {
         Stopwatch(Instant::now())
     }

@@ -2,7 +2,7 @@
 
 #![allow(
     rustdoc::broken_intra_doc_links,
-    reason = "comments on arguments are the words of the help, brackets and all"
+    reason = "doc comments on arguments become the help text, including brackets"
 )]
 
 #[macro_use]
@@ -65,7 +65,7 @@ macro_rules! verbs {
             &[$(($group, [$(stringify!($verb)),*].len(), [$(stringify!($rare)),*].len())),*];
 
         fn answer(Cli { verb, limits, .. }: &Cli, console: &Console) -> Answer {
-            // The guard of a player runs without a thread pool.
+            // The guard of a player (its supervising process) runs without a thread pool.
             if !matches!(verb, Verb::PlayerGuard(_)) {
                 limits.apply()?;
             }

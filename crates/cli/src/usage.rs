@@ -104,7 +104,8 @@ const MOVED: [(&str, &[&str]); 2] = [
 /// The subcommand from version 0.13 that has become a developer task.
 const CONFORMANCE: &str = "conformance";
 
-/// Returns the index of a moved subcommand among the arguments, and its new group.
+/// Returns the index of a moved subcommand among the arguments, and its new group; `None` if the subcommand has not
+/// moved.
 fn moved(arguments: &[OsString]) -> Option<(usize, &'static str)> {
     let is_verb = |argument: &OsString| argument != "help" && !argument.to_string_lossy().starts_with('-');
     let at = 1 + arguments.iter().skip(1).position(is_verb)?;

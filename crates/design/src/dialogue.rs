@@ -62,7 +62,7 @@ impl Dialogue<'_> {
         })
     }
 
-    /// Returns the messages of a question in the log.
+    /// Returns the messages of a question in the log; `None` if the log does not contain the question.
     fn asked(&self, step: u64, attempt: u32) -> Option<Vec<ChatMessage>> {
         let ids = self.journal.events().iter().find_map(|event| match event {
             Event::Request { step: other, attempt: again, messages, .. }

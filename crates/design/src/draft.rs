@@ -29,7 +29,7 @@ base::named_enum! {
 pub struct Draft {
     /// The index of the draft, starting at 0.
     pub number: u64,
-    /// The result.
+    /// The outcome of the draft.
     pub status: Status,
     /// The stage in which the draft ended.
     pub stage: Stage,
@@ -45,7 +45,7 @@ pub struct Draft {
     pub measures: DraftMeasures,
     /// The answers, tokens and money that the draft used.
     pub spending: Spending,
-    /// The digest of all answers, in order.
+    /// The digest of all answers, in the order in which they were given.
     pub answers: Digest,
     /// The last rules that compiled.
     pub rules: Option<String>,
@@ -92,7 +92,7 @@ impl Draft {
     }
 }
 
-/// Returns the digest of the answers in a log, in order. It does not depend on times or interruptions.
+/// Returns the digest of the answers in a log, in the log's order. It does not depend on times or interruptions.
 pub(crate) fn digest(events: &[Event]) -> Digest {
     let answers = events.iter().filter_map(|event| match event {
         Event::Reply(reply) => Some((reply.step, reply.attempt, &reply.text)),

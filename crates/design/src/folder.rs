@@ -214,7 +214,10 @@ fn lock(path: &Path) -> Result<Lock, DesignError> {
 }
 
 fn write(path: &Path, data: &impl Serialize) -> Result<(), DesignError> {
-    write_text(path, &to_canonical_json(data).expect("drafts have no numbers that JSON lacks"))
+    write_text(
+        path,
+        &to_canonical_json(data).expect("drafts contain only finite numbers, which JSON can represent"),
+    )
 }
 
 fn write_text(path: &Path, text: &str) -> Result<(), DesignError> {

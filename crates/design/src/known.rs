@@ -41,7 +41,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Adds a game.
+    /// Adds a game, under the name that messages about it use.
     pub fn push(&mut self, name: &str, game: &Game) {
         self.forms.push((name.to_owned(), GameForm::of(game)));
     }
@@ -63,7 +63,7 @@ impl Known {
         Some(Nearest { name: name.clone(), distance })
     }
 
-    /// Returns a digest of all forms and names, in order.
+    /// Returns a digest of all forms and names, in the order in which the games were added.
     pub fn digest(&self) -> Digest {
         let lines: String =
             self.forms.iter().map(|(name, form)| format!("{name} {}\n", form.digest())).collect();

@@ -16,7 +16,7 @@ use validators::CheckedCriteria;
 /// The results of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Results {
-    /// The finished drafts, in order.
+    /// The finished drafts, in the order of their numbers.
     pub drafts: Vec<Draft>,
 }
 

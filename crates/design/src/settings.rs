@@ -32,7 +32,7 @@ pub struct DesignSettings {
     pub drafts: u64,
     /// The text from which the seeds are derived.
     pub seed: String,
-    /// The assignment.
+    /// The assignment that the model receives.
     pub brief: Brief,
     /// The criteria that a game must meet.
     pub criteria: Criteria,

@@ -86,7 +86,7 @@ fn of_edge(word: &str) -> Option<&'static str> {
     EDGES.iter().position(|edge| *edge == word).map(|at| all[at])
 }
 
-/// Returns the explanation of a setting in a game's first line.
+/// Returns the explanation of a setting in a game's first line; `None` for an unknown setting.
 pub(crate) fn of_setting(key: &str) -> Option<&'static str> {
     Some(match key {
         "square_size" => "the width and height of a cell in pixels",
@@ -241,7 +241,7 @@ fn of_symbol(source: &str, words: &Words<'_>, symbol: &str) -> String {
     markdown
 }
 
-/// Returns the line that declares a parameter of a `GameSpace`.
+/// Returns the line that declares a parameter of a `GameSpace`; `None` for any other word.
 fn of_space(words: &Words<'_>, source: &str, word: &Word<'_>) -> Option<String> {
     let subject = Subject::Parameter(word.text);
     let declared = |other: &Word<'_>| other.role == Role::Parameter && Subject::of(other) == Some(subject);

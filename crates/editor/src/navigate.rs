@@ -15,7 +15,7 @@ pub(crate) enum Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// Returns the symbol to which a word refers.
+    /// Returns the symbol to which a word refers; `None` if the word is not a symbol.
     pub(crate) fn of(word: &Word<'a>) -> Option<Subject<'a>> {
         match word.role {
             Role::Declaration | Role::Sprite => Some(Subject::Sprite(word.text)),
@@ -25,7 +25,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Returns, in order, the words that refer to the symbol.
+    /// Returns the words that refer to the symbol, in the order of the text.
     pub(crate) fn places<'b>(self, words: &'b Words<'a>) -> impl Iterator<Item = &'b Word<'a>> {
         words.all().filter(move |word| Subject::of(word) == Some(self))
     }
@@ -40,7 +40,8 @@ pub fn definition(source: &str, at: usize) -> Option<Span> {
     subject.places(&words).find(declares).map(|word| word.span)
 }
 
-/// Returns the position in a game where the character at byte `at` of a level is declared.
+/// Returns the position in a game where the character at byte `at` of a level is declared; `None` if it is not
+/// declared.
 pub fn level_definition(source: &str, level: &str, at: usize) -> Option<Span> {
     let (_, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);
@@ -54,7 +55,8 @@ pub(crate) fn symbol_at(level: &str, at: usize) -> Option<(Span, &str)> {
     Some((span, &level[span.start..span.end]))
 }
 
-/// Returns, in order, the positions of all references to the symbol at byte `at`, including its declaration.
+/// Returns, in the order of the text, the positions of all references to the symbol at byte `at`, including its
+/// declaration.
 pub fn references(source: &str, at: usize) -> Vec<Span> {
     let words = Words::of(source);
     let Some(subject) = words.at(at).and_then(Subject::of) else { return Vec::new() };

@@ -9,7 +9,8 @@ use include_dir::{Dir, include_dir};
 static ONTOLOGY: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/ontology");
 static DIAGNOSTICS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/diagnostics");
 
-/// Returns the page on a sprite class, an effect, a termination or a problem code, in Markdown.
+/// Returns the page on a sprite class, an effect, a termination or a problem code, in Markdown; `None` if there is no
+/// such page.
 pub fn page(name: &str) -> Option<&'static str> {
     let of_code = || DIAGNOSTICS.get_file(format!("{name}.md"))?.contents_utf8();
     of_word(name).or_else(of_code)
@@ -23,7 +24,8 @@ fn text(folder: &str, name: &str) -> Option<&'static str> {
     ONTOLOGY.get_file(format!("{folder}/{name}.md"))?.contents_utf8()
 }
 
-/// Returns the introduction from a keyword's page: its title, its first paragraph, and its parameters.
+/// Returns the introduction from a keyword's page: its title, its first paragraph, and its parameters; `None` if the
+/// word has no page.
 pub fn introduction(word: &str) -> Option<String> {
     let page = of_word(word)?;
     let mut markdown = format!("**{word}**\n\n{}\n", summary(word)?);
@@ -36,7 +38,7 @@ pub fn introduction(word: &str) -> Option<String> {
     Some(markdown)
 }
 
-/// Returns the first paragraph of a keyword's page, as one line.
+/// Returns the first paragraph of a keyword's page, as one line; `None` if the word has no page.
 pub fn summary(word: &str) -> Option<String> {
     let body = of_word(word)?.split_once('\n')?.1.trim_start();
     let paragraph = body.split("\n\n").next()?;
@@ -70,7 +72,7 @@ pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
     }
 }
 
-/// Returns the table row whose first column contains the parameter.
+/// Returns the table row whose first column contains the parameter; `None` if there is no such row.
 fn row_of(page: &str, key: &str) -> Option<Row> {
     let named = format!("`{key}`");
     page.lines().filter(|line| line.starts_with('|')).find_map(|line| {

@@ -183,19 +183,19 @@ impl<'a> Words<'a> {
         Words { lines: lines.collect(), sprites }
     }
 
-    /// Returns all words, in order.
+    /// Returns all words, in the order of the text.
     pub(crate) fn all(&self) -> impl Iterator<Item = &Word<'a>> {
         self.lines.iter().flat_map(|line| &line.words)
     }
 
-    /// Returns the word at byte `at`, or the word that ends at that byte.
+    /// Returns the word at byte `at`, or the word that ends at that byte; `None` if there is no such word.
     pub(crate) fn at(&self, at: usize) -> Option<&Word<'a>> {
         let mut around = self.all().filter(|word| word.span.start <= at && at <= word.span.end);
         let first = around.next()?;
         Some(around.next().filter(|next| next.span.start == at).unwrap_or(first))
     }
 
-    /// Returns the first sprite line with this name.
+    /// Returns the first sprite line with this name; `None` if there is no such line.
     pub(crate) fn sprite(&self, name: &str) -> Option<&Sprite<'a>> {
         self.sprites.iter().find(|sprite| sprite.name == name)
     }
@@ -215,7 +215,8 @@ impl<'a> Words<'a> {
         all.filter(|(key, ..)| seen.insert(*key)).collect()
     }
 
-    /// Returns the distinct names of all sprite types, in order.
+    /// Returns the distinct names of all sprite types: the declared types in the order of their lines, then the
+    /// built-in types.
     pub(crate) fn sprite_names(&self) -> Vec<&'a str> {
         let mut seen = BTreeSet::new();
         let declared = self.sprites.iter().map(|sprite| sprite.name);

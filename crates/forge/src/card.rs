@@ -35,7 +35,7 @@ impl Origin {
         }
     }
 
-    /// Returns the kernel (hand-written design) from which a game was generated.
+    /// Returns the kernel (hand-written design) from which a game was generated; `None` for other games.
     pub fn kernel(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("kernel/"))
@@ -48,7 +48,7 @@ impl Origin {
         patterns.iter().find_map(|pattern| pattern.strip_prefix("form/"))
     }
 
-    /// Returns the scene (theme) whose nouns a generated game uses.
+    /// Returns the scene (theme) whose nouns a generated game uses; `None` for other games.
     pub fn scene(&self) -> Option<&str> {
         let Origin::Generated { patterns, .. } = self else { return None };
         patterns.iter().find_map(|pattern| pattern.strip_prefix("scene/"))

@@ -13,7 +13,7 @@ const MAX_WIDTH: usize = 100;
 const MOST_BOARDS: usize = 2;
 /// The maximum number of pieces of evidence to show per criterion.
 const MOST_SEEN: usize = 6;
-/// The maximum number of links to show per causal chain.
+/// The maximum number of causes to show per chain of causes.
 const MOST_LINKS: usize = 16;
 
 /// A judged game, to be put into words.
@@ -22,7 +22,7 @@ pub struct Review<'a> {
     pub source: &'a str,
     /// `true` if every level and the game meet every criterion.
     pub passes: bool,
-    /// The levels, in order.
+    /// The levels, in the game's order.
     pub levels: Vec<ReviewedLevel<'a>>,
     /// The judgements on the game across all its levels.
     pub judgements: &'a [Judgement],
@@ -183,7 +183,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &str, boards: &mu
     let shown: Vec<&Evidence> = finding.evidence.iter().filter(is_shown).collect();
     let most = if *criterion == Criterion::Winnable { MOST_LINKS } else { MOST_SEEN };
     for seen in shown.iter().take(most) {
-        // A chain of causes has one line per link, each with its position.
+        // A chain of causes has one line per cause, each with its position.
         let said = if *criterion == Criterion::Winnable { "" } else { &words };
         evidence(text, seen, said, source);
         if let Some(seen) = seen.board.as_ref().filter(|_| *boards < MOST_BOARDS && mark != "pass") {

@@ -52,9 +52,9 @@ fn is_zero(count: &u64) -> bool {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JudgeCost {
-    /// The number of judged candidates.
+    /// The number of candidates that the judge examined.
     pub asked: u64,
-    /// The number of rejected candidates.
+    /// The number of candidates that the judge rejected.
     pub refused: u64,
     /// The forward-model calls spent on levels and games that were accepted.
     pub calls_accepted: u64,
@@ -65,7 +65,7 @@ pub struct JudgeCost {
 }
 
 impl JudgeCost {
-    /// Returns the total number of calls.
+    /// Returns the total number of forward-model calls.
     pub fn calls(&self) -> u64 {
         self.calls_accepted + self.calls_refused + self.calls_lost
     }
@@ -220,7 +220,7 @@ impl Tally {
             "on levels of rejected games",
             "calls per game",
         ];
-        let note = "Forward-model calls by the fate of the judged candidates: accepted, rejected by this \
+        let note = "Forward-model calls by the outcome for the judged candidates: accepted, rejected by this \
                     judge or a later judge, or accepted as a level of a rejected game. Gates count only \
                     the calls of their own searches.";
         let mut judges: Vec<(&String, &JudgeCost)> = self.judges.iter().collect();

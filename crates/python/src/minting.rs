@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 static SEEDS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../seeds");
 static LOCKFILE: &[u8] = include_bytes!("../../../Cargo.lock");
 
-/// Returns the text of the embedded recipe with the given name.
+/// Returns the text of the embedded recipe with the given name; `None` if there is no such recipe.
 #[pyfunction]
 pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()

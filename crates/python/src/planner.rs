@@ -17,7 +17,7 @@ pub(crate) fn planner_names() -> Vec<&'static str> {
 /// The number of forward-model calls at which planning starts to take a noticeable time.
 const QUICK: u64 = 100_000;
 
-/// A planner with its own random streams.
+/// A planner with its own random-number streams.
 #[pyclass(module = "infinite_arcade")]
 pub(crate) struct Planner {
     player: OpenLoop<Player>,

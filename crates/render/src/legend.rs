@@ -21,7 +21,7 @@ struct Entry<'a> {
 
 struct Layout {
     columns: u32,
-    /// The distance between the starts of successive entries.
+    /// The width of a column in pixels: the distance between the left edges of adjacent entries.
     step: u32,
     side: u32,
 }

@@ -79,12 +79,12 @@ impl Picture {
         Picture { width, height, ..Picture::default() }
     }
 
-    /// Returns the width in pixels.
+    /// Returns the image's width in pixels.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Returns the height in pixels.
+    /// Returns the image's height in pixels.
     pub fn height(&self) -> u32 {
         self.height
     }

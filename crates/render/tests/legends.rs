@@ -3,8 +3,8 @@
 use engine::{Analysis, Game};
 use infinite_arcade_render::{Glyph, Looks};
 
-/// Returns a game with the given sprite lines, rules and terminations. A level character places the sprites
-/// of each line.
+/// Returns a game with the given sprite lines, rules and terminations. Each sprite line has its own level character,
+/// from `a` on, which places one of the line's sprites on floor.
 fn game(sprites: &[&str], rules: &[&str], ends: &[&str]) -> Game {
     let mut source = String::from("BasicGame\n  SpriteSet\n    floor > Immovable\n    wall > Immovable\n");
     sprites.iter().for_each(|line| source += &format!("    {line}\n"));

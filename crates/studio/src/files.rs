@@ -29,7 +29,7 @@ pub(crate) fn level_number(name: &str) -> Option<usize> {
     (number < MAX_LEVELS && number.to_string() == digits).then_some(number)
 }
 
-/// Returns the levels of a game in a folder, in order, each with its number and file name.
+/// Returns the levels of a game in a folder, sorted by number, each with its number and file name.
 pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, String)>, Refusal> {
     let listed = fs::read_dir(folder).map_err(|error| unreadable(folder, &error))?;
     // As in all commands, a link stands for its target, and folders are not levels.
@@ -41,7 +41,7 @@ pub(crate) fn level_files(folder: &Path, source: &str) -> Result<Vec<(usize, Str
     Ok(levels)
 }
 
-/// Returns the levels of a game in a folder, in order, with their names on pages.
+/// Returns the levels of a game in a folder, sorted by number, with their names on pages.
 pub(crate) fn levels(folder: &Path, source: &str) -> Result<Vec<NamedText>, Refusal> {
     let mut left = MAX_ALL_LEVELS;
     let read = |(number, file): (usize, String)| {

@@ -39,7 +39,7 @@ impl<'a> Gallery<'a> {
         Gallery(studio)
     }
 
-    /// Returns the games' IDs, in order.
+    /// Returns the games' IDs, in the order in which the page lists the games.
     pub fn games(&self) -> Vec<String> {
         self.0.workspace.games().iter().map(|game| game.id.clone()).collect()
     }

@@ -44,7 +44,7 @@ pub const TEMPLATES: [Template; 5] = [
 ];
 
 impl Template {
-    /// Returns the template for a genre.
+    /// Returns the template for a genre; `None` for an unknown genre.
     pub fn of(genre: &str) -> Option<Template> {
         TEMPLATES.into_iter().find(|template| template.genre == genre)
     }

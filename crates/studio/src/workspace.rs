@@ -30,7 +30,7 @@ pub enum Place {
     Texts {
         /// The game file.
         source: NamedText,
-        /// The levels, in order.
+        /// The levels, sorted by number.
         levels: Vec<NamedText>,
     },
     /// The files are in a folder, with the levels beside the game. The levels are named `lvl0.txt`,
@@ -139,7 +139,7 @@ impl Workspace {
         id
     }
 
-    /// Returns the games, in order.
+    /// Returns the games, in the order in which the page lists them.
     pub(crate) fn games(&self) -> Vec<Arc<GameEntry>> {
         self.games.read().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -124,7 +124,8 @@ fn parse_signature(text: &str) -> Result<SignatureBox, String> {
     }
 }
 
-/// Returns the identifier of the key that a signature names, without verifying the signature.
+/// Returns the identifier of the key that a signature names, without verifying the signature; `None` if the text is not
+/// a signature.
 pub(crate) fn signer_of(signature: &str) -> Option<String> {
     parse_signature(signature).ok().map(|found| id(found.keynum()))
 }

@@ -161,8 +161,8 @@ impl Signatures {
         self.signatures.get(file).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the key set with the given number. The set must not be trusted as it is, because anyone may
-    /// have written it.
+    /// Returns the key set with the given number; `None` if there is no such set. The set must not be trusted as it is,
+    /// because anyone may have written it.
     pub fn set(&self, version: u32) -> Option<&KeySet> {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
@@ -217,7 +217,9 @@ impl Signatures {
             };
             if statement.root != *root || statement.release != release {
                 let (name, other) = (&statement.release, statement.root);
-                faults.push(format!("{file}: the statement is about `{name}` with root {other}"));
+                faults.push(format!(
+                    "{file}: the statement is about a different release, `{name}` with root {other}"
+                ));
                 continue;
             }
             let signed = self.judge_statement(file, statement, anchor);

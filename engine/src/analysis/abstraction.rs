@@ -35,10 +35,10 @@ pub struct StateAbstraction {
 }
 
 impl StateAbstraction {
-    /// Returns `true` if keys omit the tick even though the game can be lost at some tick. In that case, if
-    /// two states have the same key and the game can be won from the later state, it can also be won from the
-    /// earlier one. A search that visits states in tick order, such as breadth-first search, therefore loses
-    /// nothing by dropping the later state.
+    /// Returns `true` if keys omit the tick even though the game can be lost because a certain tick is reached. In that
+    /// case, if two states have the same key and the game can be won from the later state, it can also be won from the
+    /// earlier one. A search that visits states in tick order, such as breadth-first search, therefore loses nothing by
+    /// dropping the later state.
     pub fn earlier_is_better(&self) -> bool {
         self.earlier_is_better
     }

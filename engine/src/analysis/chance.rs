@@ -18,10 +18,9 @@ use base::Seed;
 use std::collections::BTreeSet;
 
 impl Analysis {
-    /// Returns `true` if randomness can have an effect in some level. If the result is `false`, the same
-    /// actions always produce the same sprites, scores and outcomes. Draws with a certain outcome do not
-    /// count, so this method and [`Game::is_deterministic`](crate::Game::is_deterministic) can both return
-    /// `false`.
+    /// Returns `true` if randomness can have an effect in at least one level. If the result is `false`, the same
+    /// actions always produce the same sprites, scores and outcomes. Draws with a certain outcome do not count, so this
+    /// method and [`Game::is_deterministic`](crate::Game::is_deterministic) can both return `false`.
     pub fn is_stochastic(&self) -> bool {
         self.is_stochastic
     }

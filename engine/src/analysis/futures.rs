@@ -39,7 +39,7 @@ pub(super) struct Start {
     pub(super) existing: Vec<SpriteType>,
     /// The types that existing sprites create in addition to the types that all sprites of their types create.
     pub(super) making: Vec<SpriteType>,
-    /// The scheduled timed effects.
+    /// The timed effects that are scheduled at the start, as indices.
     pub(super) scheduled: Vec<u16>,
     /// For each type, whether some sprite holds the type as a resource. `None` if every amount of every
     /// resource can be held.

@@ -269,7 +269,7 @@ impl Analysis {
         list
     }
 
-    /// Returns the type to which a portal of this type leads.
+    /// Returns the type to which a portal of this type leads; `None` if it leads to no type.
     pub fn leads_to(&self, stype: SpriteType) -> Option<SpriteType> {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }

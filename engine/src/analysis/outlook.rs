@@ -10,9 +10,9 @@ use crate::rules::{Rules, SpriteType};
 use crate::state::State;
 
 impl Analysis {
-    /// Returns the relevant types that are invisible to the player. A type is relevant if, in some level, it
-    /// takes part in interactions, is counted by terminations or interactions, creates other sprites, is a
-    /// portal's exit, or is followed by other sprites.
+    /// Returns the relevant types that are invisible to the player. A type is relevant if, in at least one level, it
+    /// takes part in interactions, is counted by terminations or interactions, creates other sprites, is a portal's
+    /// exit, or is followed by other sprites.
     pub fn unseen(&self) -> &[SpriteType] {
         &self.unseen
     }

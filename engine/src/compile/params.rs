@@ -107,7 +107,7 @@ pub(super) fn missing_name(subject: &str, span: Span, key: &str, thing: &str) ->
     Diagnostic::error("missing-parameter", span, message).help(format!("add `{key}=` and the name"))
 }
 
-/// Returns the number at the start of a value, such as `5` in `5x`.
+/// Returns the number at the start of a value, such as `5` in `5x`; `None` if the value does not start with a number.
 fn leading_number(value: &str) -> Option<&str> {
     let end = value.find(|c: char| !(c.is_ascii_digit() || c == '-')).unwrap_or(value.len());
     Some(&value[..end]).filter(|number| number.parse::<i32>().is_ok())

@@ -53,7 +53,7 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// Returns the guide to a game.
+    /// Returns the guide (the rules in plain English) to a game.
     pub fn of(game: &Game) -> Guide {
         Guide::from_analysis(&Analysis::of(game))
     }

@@ -193,7 +193,7 @@ fn lingers(analysis: &Analysis) -> bool {
     possible(analysis).any(|stype| analysis.facts(stype).fleeting && acts(stype))
 }
 
-/// Returns the sentence about ticks in which several terminations hold.
+/// Returns the sentence about ticks in which several terminations hold; `None` if no sentence is needed.
 fn tie(analysis: &Analysis) -> Option<String> {
     let goals = analysis.goals();
     let decided_by = |goal: &Goal| analysis.game().0.terminations[goal.line].decided_by;

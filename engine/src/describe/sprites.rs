@@ -147,7 +147,7 @@ fn motion(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     })
 }
 
-/// Returns a phrase for the direction that a sign faces.
+/// Returns a phrase for the direction that a sign faces; `None` if it faces none.
 fn facing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let way = direction_name(analysis.sign(stype)?)?;
     let is_pushed = |encounter: &Encounter| {

@@ -123,7 +123,7 @@ fn is_the_same_for_several(noun: &str) -> bool {
         || ["carp", "pike"].iter().any(|word| has_last_word(noun, word))
 }
 
-/// Returns the plural of a noun that changes its vowel or ends in `en`.
+/// Returns the plural of a noun that changes its vowel or ends in `en`; `None` for regular nouns.
 fn irregular_plural(noun: &str) -> Option<String> {
     /// Nouns that end in `man` without being compounds of `man`.
     const NO_MAN: &[&str] =

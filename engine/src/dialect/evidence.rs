@@ -84,7 +84,7 @@ fn other_dialect(span: Span, message: String, dialect: Dialect) -> Diagnostic {
     Diagnostic::error("other-dialect", span, message).help(help)
 }
 
-/// Returns a game's dialect, with the words that reveal the dialect.
+/// Returns a game's dialect, with the words that reveal the dialect; `None` if no words reveal a dialect.
 fn dialect(description: &Description) -> Option<(Dialect, Vec<&str>)> {
     let lines = description.sprite_lines();
     let declared: BTreeSet<&str> = lines.iter().map(|(_, line)| line.name.text.as_str()).collect();

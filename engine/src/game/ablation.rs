@@ -1,7 +1,7 @@
 //! Games with one interaction disabled, to measure the interaction's effect.
 //!
 //! The disabled interaction still occurs and draws the same random numbers, but has no consequences. The
-//! random stream does not shift, so episodes in the two games are identical up to the interaction's first
+//! random-number stream does not shift, so episodes in the two games are identical up to the interaction's first
 //! consequence.
 
 use crate::game::Game;

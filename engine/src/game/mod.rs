@@ -146,7 +146,7 @@ impl Game {
         Game(Arc::new(compiled))
     }
 
-    /// Returns the type with this name.
+    /// Returns the type with this name; `None` if there is no such type.
     pub fn sprite_type(&self, name: &str) -> Option<SpriteType> {
         self.sprite_types().find(|&stype| self.name(stype) == name)
     }

@@ -77,8 +77,8 @@ impl fmt::Display for Level {
 }
 
 impl Game {
-    /// Returns the sprites that a level character places, in order. The result is empty for spaces and
-    /// unmapped characters.
+    /// Returns the sprites that a level character places, in the order of its LevelMapping line. The result is empty
+    /// for spaces and unmapped characters.
     pub fn places(&self, symbol: u8) -> &[SpriteType] {
         self.0.mapping.get(usize::from(symbol)).map_or(&[], |types| types)
     }
@@ -392,7 +392,7 @@ impl LevelReader<'_> {
         free.next().filter(|_| free.next().is_none() && symbol.is_ascii_alphanumeric())
     }
 
-    /// Returns the first avatar-placing character in the LevelMapping.
+    /// Returns the first avatar-placing character in the LevelMapping; `None` if no character places an avatar.
     fn avatar_symbol(&self) -> Option<char> {
         let rules = &self.game.0;
         let is_avatar = |stype: &SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());

@@ -136,7 +136,8 @@ fn in_words(line: &InteractionLine) -> String {
     text
 }
 
-/// Returns the warning about a swapped rule that makes the game unwinnable, and the game with that rule repaired.
+/// Returns the warning about a swapped rule that makes the game unwinnable, and the game with that rule repaired;
+/// `None` if there is no such rule.
 pub(super) fn swapped_rule_warning(game: &Game) -> Option<(Diagnostic, Game)> {
     let found = swapped_rule(game, |game| Analysis::of(game).can_win())?;
     let SwappedRule { line, span, repaired } = found;

@@ -17,7 +17,8 @@ use base::Seed;
 /// The number of seeds for which a level's first tick is tested if the game is stochastic.
 const SEEDS: u64 = 4;
 
-/// Returns a warning about the termination that ends an episode of the level in its first tick.
+/// Returns a warning about the termination that ends an episode of the level in its first tick; `None` if no
+/// termination certainly does.
 pub(crate) fn over_at_start(game: &Game, level: &Level) -> Option<Diagnostic> {
     let rules = &game.0;
     if can_be_held_up(rules) {

@@ -37,7 +37,7 @@ pub(crate) enum Place {
     TerminationParameter,
 }
 
-/// Returns the meaning of a word at a syntactic position, ignoring case and separators.
+/// Returns the meaning of a word at a syntactic position, ignoring case and separators; `None` for an unknown word.
 pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain: String =
         word.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect();

@@ -35,7 +35,7 @@ pub struct Observation {
     /// The visible non-avatar sprites, in drawing order, that follow paths, or that can move and have an
     /// orientation.
     pub movers: Vec<MoverView>,
-    /// The countdowns ([`Game::countdowns`]).
+    /// The countdowns of visible sprites ([`Game::countdowns`]).
     pub countdowns: Vec<CountdownView>,
 }
 

@@ -18,7 +18,8 @@ const NOWHERE: u32 = u32::MAX;
 /// flight. Such a sprite is always treated as changed.
 const SPREAD: u32 = 0xFFFF;
 
-/// The planes for a game's boards of a given size: one plane per shown sprite type, in order.
+/// The planes (arrays of cells) for a game's boards of a given size: one plane per visible sprite type, in the order of
+/// the types given to [`Planes::new`].
 ///
 /// A plane is a row-major array `[rows][columns]`. A cell is 1 if a sprite of the plane's type overlaps it,
 /// and 0 otherwise. The planes are contiguous.

@@ -21,7 +21,8 @@ base::named_enum! {
 }
 
 impl Action {
-    /// Parses the reference's spelling of an action, such as `ACTION_LEFT`, which traces use.
+    /// Parses the reference's spelling of an action, such as `ACTION_LEFT`, which traces use; `None` for any other
+    /// text.
     pub fn from_reference(name: &str) -> Option<Action> {
         let name = name.strip_prefix("ACTION_")?;
         Action::ALL.into_iter().find(|action| action.name().eq_ignore_ascii_case(name))

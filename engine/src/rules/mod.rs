@@ -334,7 +334,7 @@ pub(crate) struct Rules {
     pub(crate) clocks: Vec<i32>,
     /// The ticks before which wizards, including those created later, create no block.
     pub(crate) wizard_ticks: Vec<i32>,
-    /// `true` if the first sprite of some type can differ from later sprites of the type.
+    /// `true` if there is a type whose first sprite can differ from its later sprites.
     pub(crate) first_differs: bool,
     /// The effects whose score may depend on their earlier executions.
     pub(crate) remembering: Vec<u16>,

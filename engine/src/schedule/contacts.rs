@@ -16,7 +16,7 @@ use crate::world::{Models, World, ones};
 /// The index that stands for no pair.
 const NO: u16 = u16::MAX;
 
-/// A game's constant tables.
+/// The lookup tables for the interactions of a game. They are computed once and never change during play.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contacts {
     bits: usize,

@@ -67,9 +67,9 @@ pub(crate) struct Plan {
     pub(crate) contacts: Contacts,
     /// Each type's shortcuts.
     pub(crate) shortcuts: Vec<Shortcuts>,
-    /// `true` if sprites of some type may sleep, which means that their updates are skipped.
+    /// `true` if there is a type whose sprites may sleep, which means that their updates are skipped.
     pub(crate) any_sleep: bool,
-    /// `true` if sprites of some type may fly.
+    /// `true` if there is a type whose sprites may fly (see `flight.rs`).
     pub(crate) any_fly: bool,
 }
 

@@ -11,7 +11,7 @@ impl Schedule {
     /// Returns a message that describes the first difference.
     pub(crate) fn recount(&self, plan: &Plan, models: &Models, world: &World) -> Result<(), String> {
         if !self.touched.is_empty() {
-            return Err("contacts: something is left over from the last event phase".to_owned());
+            return Err("contacts: an entry is left over from the last event phase".to_owned());
         }
         let mut fresh = Schedule::empty(plan, world);
         world.clone().reoccupy(models, &mut Foresight::new(plan, &mut fresh, world));
@@ -36,7 +36,7 @@ impl Schedule {
         };
         let (kept, counted) = (contacts(self), contacts(&fresh));
         if kept != counted {
-            return Err(format!("contacts: counted {counted}, kept {kept}"));
+            return Err(format!("contacts: {counted} counted, but {kept} stored"));
         }
         Ok(())
     }

@@ -32,7 +32,7 @@ fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
 pub(crate) struct Mover {
     stype: SpriteType,
     class: SpriteClass,
-    /// The position in the update order.
+    /// The type's position in the order in which types are updated.
     order: i32,
     update_kind: UpdateKind,
     /// `true` if sprites of the type may fly or sleep, which means that their updates are skipped.

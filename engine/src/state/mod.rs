@@ -36,7 +36,7 @@ impl State {
         self.world.tick()
     }
 
-    /// Returns the score.
+    /// Returns the player's score.
     pub fn score(&self) -> f64 {
         self.world.score() as f64
     }

@@ -88,7 +88,7 @@ pub struct MappingLine {
     pub symbol: char,
     /// The position of the character.
     pub span: Span,
-    /// The placed sprites, in order.
+    /// The placed sprites, in the order of the line.
     pub names: Vec<Word>,
     /// The line's comments.
     pub trivia: Trivia,

@@ -121,7 +121,7 @@ impl<S: Scheduler> Step<'_, S> {
         self.world.disable(slot);
     }
 
-    /// Stops a sprite's updates and ageing.
+    /// Stops a sprite from being updated and from ageing.
     fn freeze(&mut self, slot: Slot) {
         let age = self.age(slot);
         let sprite = self.world.edit(slot);

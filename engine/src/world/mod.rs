@@ -107,7 +107,8 @@ flat! {
             /// The hash of `memory` and `templates` when the running hash was last settled.
             memory_hash: u64,
             memory_is_dirty: bool,
-            /// The second random stream, for WalkerJumper and for choices that the reference makes without a seed.
+            /// The second random-number stream, for WalkerJumper and for choices that the reference makes without a
+            /// seed.
             jumps: Chance,
         }
         buffers {
@@ -268,7 +269,7 @@ impl World {
         self.sprites.len()
     }
 
-    /// Returns the groups, by type.
+    /// Returns each type's group (the list of its sprites, with counts), indexed by type.
     pub(crate) fn groups(&self) -> &[Group] {
         &self.groups
     }

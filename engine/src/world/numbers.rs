@@ -76,17 +76,17 @@ impl World {
         &mut self.chance
     }
 
-    /// Returns the second random stream.
+    /// Returns the second random-number stream.
     pub(crate) fn jumps(&self) -> Chance {
         self.jumps
     }
 
-    /// Returns the second random stream, for drawing from it.
+    /// Returns the second random-number stream, for drawing from it.
     pub(crate) fn second_dice(&mut self) -> &mut Chance {
         &mut self.jumps
     }
 
-    /// Replaces both random streams.
+    /// Replaces both random-number streams.
     pub(crate) fn reseed(&mut self, chance: Chance, jumps: Chance) {
         (self.chance, self.jumps) = (chance, jumps);
     }
@@ -179,7 +179,7 @@ impl World {
         self.avatar != NONE
     }
 
-    /// Adds a shield for this tick.
+    /// Adds a shield (the disabling of some interactions) for the rest of this tick.
     pub(crate) fn shield(&mut self, shield: (SpriteType, SpriteType, u16)) {
         if let Err(at) = self.shields.binary_search(&shield) {
             self.shields.insert(at, shield);

@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 const OPEN: u8 = 0;
 /// A cell that contains an obstacle or is off the board.
 const CLOSED: u8 = u8::MAX;
-/// The cell where a path starts.
+/// The value that marks the cell where a path starts.
 const START: u8 = u8::MAX - 1;
 
 /// A search frontier that breaks ties like the reference's binary heap.

@@ -42,7 +42,7 @@ impl World {
         };
         let (kept, counted) = (masks(self), masks(&fresh));
         if kept != counted {
-            return Err(format!("types by cell: counted {counted}, kept {kept}"));
+            return Err(format!("types by cell: {counted} counted, but {kept} stored"));
         }
         let bits = |world: &World| {
             let few = [world.multi_cell_bits, world.big_bits, world.vast];
@@ -50,7 +50,7 @@ impl World {
         };
         // These bit sets may contain too many types, but never too few.
         if bits(&fresh).iter().zip(bits(self)).any(|(&fresh, kept)| fresh & !kept != 0) {
-            return Err("a sprite in several cells is not known as one".to_owned());
+            return Err("a sprite that covers several cells is not recorded as such".to_owned());
         }
         Ok(())
     }
@@ -78,7 +78,7 @@ impl World {
         }
     }
 
-    /// Walks a type's chain.
+    /// Walks the chain of a type's sprites, and checks every sprite in it.
     fn recount_group(&self, rules: &Rules, stype: SpriteType, alive: &mut [bool]) -> Result<Group, String> {
         let kept = self.group(stype);
         let scenery = self.scenery_of(stype).len() as u16;
@@ -101,7 +101,7 @@ impl World {
             counted.off += u16::from(sprite.is(flag::OFF));
             let correct = self.recounted_flags(&self.present(slot)) == sprite.flags & flag::PLACEMENT;
             if !correct {
-                return Err(format!("slot {slot} of `{name}` covers other cells than its flags say"));
+                return Err(format!("slot {slot} of `{name}` does not cover the cells that its flags state"));
             }
         }
         if counted.tail != kept.tail {
@@ -140,7 +140,7 @@ impl World {
         let takes_part = |sprite: &Sprite| models.bit(sprite.stype) != 0;
         let sprites = self.sprites.iter().chain(self.all_fixtures());
         if !alive.iter().zip(sprites).map(|(&alive, sprite)| alive && takes_part(sprite)).eq(seen) {
-            Err("the cells hold other sprites than the types".to_owned())
+            Err("the lists by cell and the lists by type contain different sprites".to_owned())
         } else {
             Ok(())
         }
@@ -158,13 +158,16 @@ impl World {
         }
         let used = alive.iter().filter(|&&alive| alive).count();
         if used + holes != self.sprites.len() {
-            return Err(format!("{used} slots in use and {holes} free ones make not {}", self.sprites.len()));
+            return Err(format!(
+                "{used} used slots and {holes} free slots do not add up to {}",
+                self.sprites.len()
+            ));
         }
         let mut moved: Vec<Slot> = self.moved.clone();
         moved.sort_unstable();
         let marked = (0..self.sprites.len()).filter(|&at| alive[at] && self.sprites[at].is(flag::MOVED));
         if !marked.map(|at| at as Slot).eq(moved.iter().copied()) {
-            return Err(format!("the list of those that moved is {moved:?}"));
+            return Err(format!("the list of moved sprites is {moved:?}"));
         }
         for (at, sprite) in self.sprites.iter().enumerate().filter(|&(at, _)| alive[at]) {
             let resized = self.resized.iter().filter(|one| usize::from(one.slot) == at).count();
@@ -199,7 +202,10 @@ impl World {
         let holders =
             self.overrides.iter().map(|overrides| overrides.holder).filter(|&holder| holder != NONE);
         if holders.clone().count() + rules.types.len() != self.overrides.len() {
-            return Err("the overrides of the types are not in their place".to_owned());
+            return Err(
+                "the number of overrides does not match the types and the sprites with their own values"
+                    .to_owned(),
+            );
         }
         if let Some(holder) = holders.clone().find(|&holder| self.overrides(holder).holder != holder) {
             return Err(format!("slot {holder} has overrides that it does not use"));
@@ -217,7 +223,7 @@ impl World {
             .chain(self.extras.iter().map(|e| e.holder))
             .chain(holders);
         match holders.find(|&slot| !alive[usize::from(slot)]) {
-            Some(slot) => Err(format!("slot {slot} is gone and still holds something")),
+            Some(slot) => Err(format!("slot {slot} is free, but still has resources or values of its own")),
             None => Ok(()),
         }
     }

@@ -6,7 +6,7 @@ use base::Sampler;
 /// A line that divides a board, and the gaps in the line. The line's walls have not been placed yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Divider {
-    /// The line's cells in order, including gaps.
+    /// The line's cells from one end to the other, including gaps.
     pub(crate) line: Vec<usize>,
     pub(crate) gaps: Vec<Vec<usize>>,
 }

@@ -70,7 +70,7 @@ impl<'k> Draft<'k> {
         self.cells.iter().filter(|&&other| other == symbol).count()
     }
 
-    /// Returns the cells with pieces, in order.
+    /// Returns the cells with pieces, in row-major order.
     pub(crate) fn pieces(&self) -> Vec<usize> {
         (0..self.grid.len()).filter(|&cell| self.kit.piece(self.cells[cell]).is_some()).collect()
     }

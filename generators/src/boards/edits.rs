@@ -10,7 +10,7 @@ use base::Sampler;
 pub(crate) enum Edit {
     /// Moves a piece to a cell that fits it.
     MovePiece,
-    /// Swaps two different pieces.
+    /// Swaps two pieces of different kinds.
     Swap,
     /// Moves adjacent pieces of the same kind together.
     MoveGroup,
@@ -22,9 +22,9 @@ pub(crate) enum Edit {
     Shorten,
     /// Moves a gap, with its contents, along its wall.
     MoveGap,
-    /// Adds a piece.
+    /// Adds one more piece of some kind.
     Add,
-    /// Removes a piece.
+    /// Removes one piece of some kind.
     Remove,
     /// Moves the avatar's start.
     MoveHero,

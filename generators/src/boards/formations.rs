@@ -6,7 +6,7 @@ use base::Sampler;
 /// The number of attempts to place a formation.
 const DRAWS: usize = 24;
 
-/// The arrangement of a group.
+/// The arrangement of a group of equal pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Formation {
     /// A row in which each member is displaced by this offset from the previous one.
@@ -89,7 +89,7 @@ pub(crate) fn arrange(grid: Grid, count: usize, weights: &[u32], sampler: &mut S
     cells
 }
 
-/// Draws cells far from each other.
+/// Draws `count` cells that are far from each other.
 fn spread(grid: Grid, count: usize, weights: &[u32], sampler: &mut Sampler) -> Vec<usize> {
     let mut cells: Vec<usize> = sampler.weighted(weights).into_iter().collect();
     while !cells.is_empty() && cells.len() < count {

@@ -12,7 +12,7 @@ const MAX_KINDS: usize = 8;
 /// The maximum number of givers to place because an interaction requires their resource.
 const MOST_GIVERS: usize = 12;
 
-/// A kind of piece.
+/// A kind of piece (a sprite type that boards place), with its position and number.
 #[derive(Clone, Debug)]
 pub(crate) struct Piece {
     pub(crate) stype: SpriteType,
@@ -31,7 +31,7 @@ pub(crate) struct Piece {
 pub(crate) struct Kit<'a> {
     pub(crate) analysis: &'a Analysis,
     pub(crate) palette: Palette,
-    /// The pieces, by type.
+    /// The kinds of pieces, sorted by sprite type.
     pub(crate) pieces: Vec<Piece>,
     pub(crate) brief: BoardBrief,
 }

@@ -22,7 +22,7 @@ impl LockRules {
     /// The maximum number of kinds of keys.
     pub const KINDS: usize = 2;
 
-    /// All rule sets, without near-duplicates.
+    /// All rule sets for lock puzzles, without near-duplicates.
     pub const ALL: [LockRules; 3] = [rules(2, true, true), rules(2, false, false), rules(1, false, true)];
 
     /// The characters used in the game's levels.

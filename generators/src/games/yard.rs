@@ -24,7 +24,7 @@ impl YardRules {
     /// The maximum number of kinds of parcels.
     pub const KINDS: usize = 2;
 
-    /// All rule sets, without near-duplicates.
+    /// All rule sets for yards, without near-duplicates.
     pub const ALL: [YardRules; 2] = [rules(1, false, false), rules(2, true, true)];
 
     /// The characters used in the game's levels.

@@ -79,7 +79,7 @@ impl Census {
         is_invented
     }
 
-    /// Returns all counts, by pattern.
+    /// Returns the number of games for each pattern.
     pub fn all(&self) -> impl Iterator<Item = (&str, u32)> {
         self.uses.iter().map(|(pattern, uses)| (pattern.as_str(), *uses))
     }
@@ -149,7 +149,7 @@ const SAMPLES: u64 = 6_000;
 /// The rarity of a mechanic that is part of sound draws (draws that can become a game) as often as the average
 /// mechanic.
 const USUAL: u64 = 16;
-/// The maximum rarity of a mechanic.
+/// The maximum factor that [`rarity`] returns for a mechanic.
 const RAREST: u64 = 64;
 
 /// Returns the factor by which a mechanic's weight is increased because it is rarely part of a draw that can become a
@@ -266,8 +266,9 @@ fn choose_one(
     Some(options[sampler.weighted(&weights)?])
 }
 
-/// Draws different mechanics and an ending, by weight. The requested mechanics come first. At least one mechanic is a
-/// danger that acts by itself.
+/// Draws `count` distinct mechanics and then an ending, in proportion to their weights. The requested mechanics come
+/// first. At least one mechanic is a danger that acts by itself. Returns `None` if too few mechanics have a positive
+/// weight.
 fn choose(
     count: usize,
     lead: Lead,
@@ -290,8 +291,9 @@ fn choose(
     Some(chosen)
 }
 
-/// Draws a partition of the ports, which are the mechanics' open roles. Merges pairs of ports until every mechanic is
-/// linked, every mover has its motion, and no port is idle. May then merge one more pair.
+/// Draws a partition of the ports, which are the mechanics' open roles. Ports in one class are filled by one sprite
+/// type. Merges pairs until all mechanics are connected by shared types, every type that should move has a rule of
+/// motion, and every type is needed. May then merge one more pair. Returns `None` if the pairs left do not suffice.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }
@@ -334,8 +336,8 @@ struct Draft {
 }
 
 impl Draft {
-    /// Returns `true` if the type that fills a port (an open role) would be useless, because it is a mover without
-    /// motion or because nothing needs it.
+    /// Returns `true` if the type that fills a port (an open role) would be useless, because it should move but has no
+    /// rule of motion, or because nothing needs it.
     fn is_needy(&self, port: usize) -> bool {
         let members = self.members(self.partition[port]);
         let Some(merged) = Merged::of(members) else { return false };
@@ -347,8 +349,8 @@ impl Draft {
         all.filter(|(_, other)| **other == class).map(|(port, _)| *port).collect()
     }
 
-    /// Returns a mechanic to link to the others, preferably one that does not share a type with any other mechanic;
-    /// `None` if all are connected.
+    /// Returns a mechanic to connect to the others, preferably one that does not share a type with any other mechanic;
+    /// `None` if all mechanics are connected.
     fn lonely(&self, mechanics: usize) -> Option<usize> {
         let types: Vec<Merged> = (0..=u8::MAX)
             .map_while(|class| (usize::from(class) < self.ports.len()).then(|| self.members(class)))

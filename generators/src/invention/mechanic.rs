@@ -19,7 +19,7 @@ pub(crate) enum Body {
     Item,
     /// An object that the player pushes.
     Crate,
-    /// An object that stops the player, movers and crates.
+    /// An object that stops the player, crates, and sprites that move by themselves.
     Solid,
     /// Ground that does not stop any sprite.
     Ground,

@@ -79,7 +79,7 @@ impl Merged {
     }
 }
 
-/// Returns all ports (open roles) of the mechanics, in order.
+/// Returns all ports (open roles) of the mechanics, mechanic by mechanic.
 pub(crate) fn ports(mechanics: &[&'static Mechanic]) -> Vec<(PortId, &'static Port)> {
     let of_mechanic = |(at, mechanic): (usize, &&'static Mechanic)| {
         let mechanic: &'static Mechanic = mechanic;

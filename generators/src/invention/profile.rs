@@ -16,7 +16,7 @@ base::named_enum! {
         Spend = "spend",
         /// The player removes obstacles.
         Open = "open",
-        /// The player decides where a mover goes.
+        /// The player decides where a sprite that moves by itself goes.
         Lead = "lead",
         /// The player only collects, catches or avoids objects.
         Take = "take",
@@ -42,7 +42,7 @@ pub struct Profile {
 }
 
 impl Invention {
-    /// Returns the characteristics. Cost: microseconds.
+    /// Returns the invention's characteristics. Cost: microseconds.
     pub fn profile(&self) -> Profile {
         let types = self.types().unwrap_or_default();
         let opposed = types.iter().filter(|merged| is_opposed(merged));

@@ -14,7 +14,7 @@ pub enum Unsound {
     Body,
     /// A moving type has no motion or several motions.
     Motion,
-    /// The mechanics are not all linked by shared types.
+    /// The mechanics are not all connected by shared types.
     Unconnected,
     /// A type is produced or carried, but nothing needs it.
     Idle,
@@ -79,7 +79,7 @@ pub(super) fn has_one_motion(merged: &Merged) -> bool {
     merged.count(Tag::Moves) == usize::from(merged.body == Body::Mover)
 }
 
-/// Returns `true` if merged types link all mechanics.
+/// Returns `true` if shared (merged) types connect all mechanics.
 pub(super) fn are_connected(mechanics: usize, types: &[Merged]) -> bool {
     let mut group: Vec<usize> = (0..mechanics).collect();
     for merged in types {
@@ -169,8 +169,8 @@ pub(super) fn tension(mechanics: &[&'static Mechanic], types: &[Merged]) -> usiz
     (12 * types.iter().map(score).sum::<usize>() / mechanics.len().max(1)).min(ENOUGH)
 }
 
-/// Returns `true` if the player can influence a mover in a way other than avoiding it. If a mover has to be brought to
-/// a place, the player must be able to guide it there.
+/// Returns `true` if the player can influence a type that moves by itself, in a way other than avoiding it. If such a
+/// type has to be brought to a place, the player must be able to guide it there.
 fn is_influenced(merged: &Merged) -> bool {
     let is_affected = [Tag::Removed, Tag::Lost, Tag::Spent].iter().any(|tag| merged.has(*tag));
     merged.body != Body::Mover || merged.has(Tag::Led) || (is_affected && !merged.has(Tag::Brought))

@@ -25,8 +25,8 @@ struct Stratum {
 }
 
 impl InventionSupply {
-    /// Estimates the number of rule sets from `samples` choices for each number of mechanics. Cost: about 2
-    /// milliseconds per choice.
+    /// Estimates the number of rule sets. For each number of mechanics, `samples` choices of mechanics and an ending
+    /// are drawn and tested. Cost: about 2 milliseconds per choice.
     pub fn estimate(config: &InventionConfig, samples: u64, seed: Seed) -> InventionSupply {
         let [mechanics, endings] = [false, true].map(|are| Mechanic::endings(are).count() as f64);
         let stratum = |count: usize| {

@@ -10,7 +10,7 @@ use base::{Sampler, Seed};
 /// The number of attempts at a change before the parent is returned unchanged.
 const ATTEMPTS: usize = 64;
 
-/// A kind of change.
+/// A kind of mutation of an invention.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Change {
     /// Redraws a mechanic's numbers.
@@ -21,7 +21,7 @@ enum Change {
     Mechanic,
 }
 
-/// The kinds of change with their weights.
+/// The kinds of mutation with their weights.
 const CHANGES: [(Change, u32); 3] = [(Change::Mechanic, 4), (Change::Merge, 5), (Change::Number, 3)];
 
 /// Inventions as search candidates. New candidates are drawn as in the constructive method. Mutation changes a
@@ -140,7 +140,7 @@ mod tests {
     use std::collections::{BTreeMap, BTreeSet};
 
     /// Requests candidates from a search, checks that each passes the static conditions and can be built, and returns
-    /// the number of different candidates.
+    /// the number of distinct candidates.
     fn check(mut search: impl Search<Candidate = Invention>) -> usize {
         let mut keys = BTreeSet::new();
         for _ in 0..4 {

@@ -46,7 +46,7 @@ impl Turns {
         Turns { order }
     }
 
-    /// Returns the kernels and their kinds, in turn order.
+    /// Returns the kernels and their kinds, in the order in which kernels take turns.
     pub fn kernels(&self) -> impl Iterator<Item = (&'static str, Kind)> + '_ {
         self.order.iter().map(|kernel| (kernel.name.as_str(), kernel.kind))
     }

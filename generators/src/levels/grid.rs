@@ -93,7 +93,8 @@ impl Grid {
         steps
     }
 
-    /// Returns a shortest path from `from` to `to` through open cells, including both ends. Cost: O(cells).
+    /// Returns a shortest path from `from` to `to` through open cells, including both ends; `None` if there is no path.
+    /// Cost: O(cells).
     pub(crate) fn way(self, from: usize, to: usize, open: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
         let steps = self.flood(&[to], |cell| cell == from || open(cell));
         let mut way = vec![from];

@@ -35,7 +35,7 @@ pub(crate) struct Palette {
     pub(crate) avatars: Vec<(SpriteType, u8)>,
     /// The best character for each type that does not place an avatar.
     symbols: Vec<Option<u8>>,
-    /// Each character's effect on walking.
+    /// For each character, whether and how the avatar can enter its cell.
     walk: Vec<Walk>,
 }
 
@@ -92,7 +92,7 @@ impl Palette {
         self.symbols[stype.index()]
     }
 
-    /// Returns a character's effect on walking.
+    /// Returns whether and how the avatar can enter a cell with the given character.
     pub(crate) fn walk(&self, symbol: u8) -> Walk {
         self.walk.get(usize::from(symbol)).copied().unwrap_or(Walk::Open)
     }

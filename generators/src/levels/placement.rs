@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// The number of bands into which a board is divided in each direction.
 const BANDS: usize = 5;
-/// A cell's neutral weight.
+/// The weight of a cell about which the statistics say nothing.
 pub(crate) const USUAL: u32 = 16;
 /// The number of classes of wall arrangements next to a cell; see [`nook`].
 pub(crate) const NOOKS: usize = 6;
@@ -38,9 +38,9 @@ pub(crate) struct Placement {
 /// The number of sprites in each board band.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Bands {
-    /// The bands from left to right.
+    /// The number of sprites in each vertical band, from left to right.
     across: [usize; BANDS],
-    /// The bands from top to bottom.
+    /// The number of sprites in each horizontal band, from top to bottom.
     down: [usize; BANDS],
 }
 
@@ -204,7 +204,7 @@ fn band(at: usize, of: usize) -> usize {
     (at * BANDS / of.max(1)).min(BANDS - 1)
 }
 
-/// Returns the side of the border on which a cell lies, as an index into [`WAYS`].
+/// Returns the side of the border on which a cell lies, as an index into [`WAYS`]; `None` for inner cells.
 fn side(grid: Grid, cell: usize) -> Option<usize> {
     WAYS.into_iter().position(|way| grid.shift(cell, way).is_none())
 }

@@ -51,7 +51,7 @@ fn items(text: &str) -> impl Iterator<Item = &str> {
     text.split(", ").flat_map(|part| part.split(" or ")).flat_map(|part| part.split(" and "))
 }
 
-/// Parses a sentence about an ending.
+/// Parses a sentence about an ending; `None` for any other sentence.
 pub(super) fn ending(game: &Game, avatars: &[SpriteType], text: &str) -> Option<Ending> {
     let text = text.strip_suffix('.')?;
     let (win, text) = match text.strip_prefix("You win ") {

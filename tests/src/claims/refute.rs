@@ -263,7 +263,8 @@ impl Fact {
     }
 }
 
-/// Returns a sprite that `wanted` accepts and whose position changed during the tick.
+/// Returns a sprite that `wanted` accepts and whose position changed during the tick; `None` if there is no such
+/// sprite.
 fn moved<'a>(
     before: &Frame,
     after: &'a Frame,
@@ -294,7 +295,7 @@ fn cells_of(case: &Case, play: &Play, record: &SpriteRecord) -> Vec<usize> {
     cells.map(|(column, row)| row as usize * case.level.columns() + column as usize).collect()
 }
 
-/// Returns the first difference between two episodes with the same actions.
+/// Returns the first difference between two episodes with the same actions; `None` if there is no difference.
 fn differs(case: &Case, one: &Play, two: &Play, with: &str) -> Option<String> {
     let equal = |one: &Frame, two: &Frame| {
         // Sprites that differ are compared as text, because some speeds are NaN.

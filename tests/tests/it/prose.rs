@@ -131,7 +131,7 @@ fn blocks(page: &str, with_tables: bool) -> Vec<(usize, String)> {
     blocks.iter().map(|(number, text)| (*number, plain(text))).collect()
 }
 
-/// Returns the text of a list item without its marker.
+/// Returns the text of a list item without its marker; `None` if the text is not a list item.
 fn item(text: &str) -> Option<&str> {
     let digits = text.trim_start_matches(|c: char| c.is_ascii_digit());
     let numbered = digits.strip_prefix(". ").filter(|_| digits.len() < text.len());

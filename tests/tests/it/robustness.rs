@@ -15,7 +15,7 @@ fn sampler(purpose: &str) -> Sampler {
     sweep::seed("robustness").child(purpose, 0).sampler()
 }
 
-/// Returns the contents of the files below a repository folder, in order.
+/// Returns the contents of the files below a repository folder, sorted by path.
 fn files_below(folder: &str) -> Vec<Vec<u8>> {
     let files = workspace_files().into_iter().filter(|file| file.starts_with(folder));
     files.map(|file| std::fs::read(workspace_root().join(file)).expect("a file of the repository")).collect()

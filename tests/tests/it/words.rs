@@ -103,7 +103,7 @@ fn is_data(name: &str) -> bool {
     name.starts_with("tests/suite/snapshots") || name.starts_with("crates/evaluation/tests/golden")
 }
 
-/// Returns the text of a line that belongs to a doc comment.
+/// Returns the text of a line that belongs to a doc comment; `None` for any other line.
 fn doc_comment(line: &str) -> Option<&str> {
     let line = line.trim_start();
     line.strip_prefix("/// ").or_else(|| line.strip_prefix("//! "))

@@ -213,8 +213,8 @@ fn table(args: &Args, new: &[New], best: &[Likest<'_>]) -> Table {
     columns.extend(KINDS);
     columns.push("any");
     let note = format!(
-        "Fraction of levels that are more than {ALIKE} alike to a board of other or earlier releases, of \
-         the corpus, or of the kernels."
+        "Fraction of levels whose similarity to a board from another or earlier release, from the corpus or \
+         from a kernel exceeds {ALIKE}."
     );
     let mut table = Table::new("boards-alike", "Boards alike", &note, &columns);
     for (release, path) in args.releases.iter().enumerate() {

@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 /// Plays the planners MCTS, OLETS and RHEA in the cells for which episodes of the reference were recorded,
 /// and compares wins, scores and ticks.
 ///
-/// The exit status is 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5%), or if
-/// the win rates differ by more than 10 points on average. It is also 1 if a mean score in aliens or
-/// boulderdash differs by more than 20%.
+/// The exit status is 1 if a cell differs (Fisher, two-sided, Benjamini–Hochberg over the cells at 5%), or if the win
+/// rates differ by more than 10 percentage points on average. It is also 1 if a mean score in aliens or boulderdash
+/// differs by more than 20%.
 ///
 /// Example: cargo xtask fidelity --games gvgai/games --recorded agents-1000.csv
 #[derive(clap::Args)]

@@ -27,7 +27,7 @@ const TIMES: &str = "ARCADE_SWEEP_TIMES";
 
 #[expect(
     clippy::disallowed_methods,
-    reason = "the seed of a sweep is the time; it is printed, and given back by --seed"
+    reason = "the seed of a sweep is the current time; it is printed, and --seed repeats a sweep"
 )]
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let now = || SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()).to_string();

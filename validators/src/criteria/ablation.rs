@@ -23,15 +23,14 @@ use rayon::prelude::*;
 /// rule.
 ///
 /// One change suffices for a pass. If no test shows a change, the verdict is unknown. The criterion fails only if a
-/// rule is proven idle, which means that on every level all sequences of actions have the same outcome and score
-/// without it.
+/// rule is proven superfluous: on every level, all sequences of actions have the same outcome and score without it.
 ///
 /// Rules on walls and the screen edge are guards. Guards are reported but never fail, because the sprites
 /// that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RulesMatter {
-    /// The number of forward-model calls per interaction. A proof that an interaction is idle may take up to a quarter
-    /// of this number in addition.
+    /// The number of forward-model calls per interaction. A proof that an interaction is superfluous may take up to a
+    /// quarter of this number in addition.
     calls: u64,
     /// The maximum total number of forward-model calls for all interactions; `None` for no limit. Tests beyond the
     /// limit are skipped.
@@ -48,7 +47,7 @@ const DECISION: Budget = Budget(300);
 const LOOK_AHEAD: u32 = 20;
 /// The maximum number of ticks per episode of the searching player.
 const PLAY: usize = 400;
-/// The number by which a rule's calls are divided to get the budget for proving the rule idle.
+/// The number by which a rule's calls are divided to get the budget for proving the rule superfluous.
 const PROOF: u64 = 4;
 
 /// The result of disabling one interaction.

@@ -34,7 +34,7 @@ const MAX_STATES: usize = 2000;
 /// The number of random episodes to try before a search.
 const RANDOM_PLAYS: u64 = 24;
 
-/// The result for one seed.
+/// The result of the search with one random seed.
 struct Survival {
     /// `true` if a sequence of actions survived.
     survived: bool,
@@ -167,7 +167,7 @@ impl NoEarlyDeath {
         Survival { survived, complete, longest, idle, calls: calls + spent }
     }
 
-    /// Plays the first ticks.
+    /// Plays the first [`NoEarlyDeath::ticks`] ticks with the actions that `choose` selects.
     fn play_start(
         &self,
         case: Case<'_>,

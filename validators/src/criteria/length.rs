@@ -12,9 +12,9 @@ use crate::verdict::{Finding, Verdict};
 /// Passes if the number of ticks in the witness is within bounds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LengthWithin {
-    /// The minimum number of ticks.
+    /// The minimum number of ticks of the witness.
     least: usize,
-    /// The maximum number of ticks.
+    /// The maximum number of ticks of the witness.
     most: usize,
 }
 

@@ -50,7 +50,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns the judge for a level criterion.
+            /// Returns the judge for a level criterion; `None` for any other criterion.
             pub(crate) fn level_judge(self, setting: &Setting<'_>) -> Option<LevelJudge> {
                 let judge = |stage, validator| LevelJudge { criterion: self, stage, validator };
                 match self {
@@ -59,7 +59,7 @@ macro_rules! define {
                 }
             }
 
-            /// Returns the judge for a game criterion.
+            /// Returns the judge for a game criterion; `None` for any other criterion.
             pub(crate) fn game_judge(self, setting: &Setting<'_>) -> Option<GameJudge> {
                 let judge = |about, validator| GameJudge { criterion: self, about, validator };
                 match self {

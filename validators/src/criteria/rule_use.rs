@@ -23,7 +23,8 @@ pub(crate) struct RuleUse;
 /// The name of the screen edge in interactions.
 const EDGE: &str = "EOS";
 
-pub(crate) const QUESTION: &str = "does every rule run, and every type appear, in some play?";
+pub(crate) const QUESTION: &str =
+    "does every rule run, and does every type appear, in at least one recorded episode?";
 
 pub(crate) fn judge(_: &Setting<'_>) -> RuleUse {
     RuleUse

@@ -149,7 +149,7 @@ fn totals(ladders: &[&Ladder], of: impl Fn(&Ladder) -> &Vec<PlayerResult>) -> Ve
     first.iter().enumerate().map(total).collect()
 }
 
-/// Returns the player with the highest win rate. Ties go to the earlier player.
+/// Returns the player with the highest win rate; `None` without players. Ties go to the earlier player.
 fn strongest<'a>(totals: impl Iterator<Item = &'a Total>) -> Option<&'a Total> {
     totals.fold(None, |best: Option<&Total>, total| match best {
         Some(best) if best.share() >= total.share() => Some(best),

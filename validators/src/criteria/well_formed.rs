@@ -70,14 +70,14 @@ impl Validator for WellFormed {
     }
 }
 
-/// Returns the interaction to which a warning about swapped sides refers.
+/// Returns the interaction to which a warning about swapped sides refers; `None` if it refers to none.
 fn swapped(game: &Game, warning: &Diagnostic) -> Option<Line> {
     let mut lines = game.description().interactions.iter();
     let line = lines.position(|line| line.first.span.start == warning.span.start)?;
     (warning.code == "swapped-rule").then(|| Line::interaction(game, line))
 }
 
-/// Returns the line of the first sprite that uses path finding.
+/// Returns the line of the first sprite that uses path finding; `None` if no sprite does.
 fn path_finder(game: &Game) -> Option<Line> {
     let seeks = |class: SpriteClass| {
         [SpriteClass::PathChaser, SpriteClass::PathAltChaser].iter().any(|&seeker| class.is_a(seeker))

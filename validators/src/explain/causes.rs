@@ -64,7 +64,7 @@ pub(crate) fn lower(sentence: &str) -> String {
     characters.next().map_or(String::new(), |first| first.to_lowercase().chain(characters).collect())
 }
 
-/// A chain's links, as text.
+/// The causes in a chain, as text.
 struct Explanation<'a> {
     analysis: &'a Analysis,
     level: &'a Level,

@@ -18,9 +18,9 @@ const SHARE: u64 = 2;
 /// The fraction of a search's budget that may be spent, in a stochastic game, on searching with all randomness
 /// foreseen.
 const FORESIGHT: f64 = 0.4;
-/// The maximum number of lines to report.
+/// The maximum number of responsible lines to report.
 const MAX_NAMED: usize = 3;
-/// The maximum number of searches.
+/// The maximum number of changed games in which to search for a win.
 const MAX_TRIALS: u64 = 200;
 /// The speed given to sprites that should carry others. At this speed, a sprite takes several ticks to leave a cell.
 const CARRYING_SPEED: &str = "0.2";
@@ -64,7 +64,7 @@ struct Changed {
     advice: String,
 }
 
-/// A win in a changed game.
+/// A win found in a changed game.
 struct Won {
     changed: Changed,
     episode: Episode,

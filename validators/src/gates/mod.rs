@@ -30,7 +30,7 @@ use crate::validator::GameCase;
 use crate::verdict::{Finding, Verdict};
 use engine::Outcome;
 
-/// Returns the levels with a known win, in order, or `None` if there are none.
+/// Returns the levels with a known win, in the game's order, or `None` if there are none.
 fn won_levels<'a>(case: GameCase<'a>) -> Option<Vec<WonLevel<'a>>> {
     let won = |(number, recorded): (usize, &crate::Recorded<'a>)| {
         let wins = recorded.episodes.iter().filter(|episode| episode.outcome == Outcome::Won);

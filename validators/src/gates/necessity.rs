@@ -113,7 +113,7 @@ impl GameValidator for Necessity {
     }
 }
 
-/// The answer for one element.
+/// The answer to the question whether one element (a rule or type) matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Need {
     /// Tests show that the element matters.

@@ -56,7 +56,7 @@ impl GameValidator for Progression {
         let mut problems = Vec::new();
         if growth < gates.growth {
             problems.push(format!(
-                "{growth} levels after the first bring new mechanics (at least {} required): the wins use {} of {}",
+                "{growth} levels after the first bring new mechanics (at least {} required): the wins use {} of {} mechanics",
                 gates.growth,
                 counts.join(", "),
                 all.len()

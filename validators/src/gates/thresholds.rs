@@ -92,7 +92,7 @@ impl Gates {
         Gates { growth: 0, drama: self.drama / 2.0, ..self.clone() }
     }
 
-    /// Returns the key of the first value that is out of range, and the reason.
+    /// Returns the key of the first value that is out of range, and the reason; `None` if all values are valid.
     pub(crate) fn problem(&self) -> Option<(&'static str, String)> {
         let shares = [
             ("gates.narrow", self.narrow),

@@ -81,7 +81,7 @@ base::named_enum! {
         Unlock = "unlock",
         /// A location must be reached.
         Reach = "reach",
-        /// Movers must be brought together with each other or to a location.
+        /// Self-moving sprites must be brought together with each other or to a location.
         Herd = "herd",
         /// Stationary objects must be switched, lit or used up.
         Switch = "switch",

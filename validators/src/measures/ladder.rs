@@ -279,7 +279,7 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// Computes the rate over some episodes.
+    /// Computes the win rate and the mean score over some episodes.
     pub fn of<'a>(plays: impl IntoIterator<Item = &'a Play>) -> Rate {
         let plays: Vec<&Play> = plays.into_iter().collect();
         let wins = plays.iter().filter(|play| play.episode.outcome == Outcome::Won).count() as u64;

@@ -95,7 +95,7 @@ impl RuleRef {
         Ok(named(meant))
     }
 
-    /// Returns the written text.
+    /// Returns the reference as the user wrote it.
     pub fn text(&self) -> &str {
         &self.text
     }

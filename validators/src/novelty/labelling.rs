@@ -22,7 +22,7 @@ const MAX_LABELLINGS: usize = 200;
 #[derive(Clone, Debug)]
 pub(super) struct Labelled {
     pub(super) text: String,
-    /// The graph's types, in text order.
+    /// The graph's type nodes, in the order of the canonical text.
     pub(super) order: Vec<usize>,
 }
 

@@ -51,8 +51,8 @@ impl GameForm {
         self.digest
     }
 
-    /// Returns the index and distance of the nearest form. Ties go to the earlier form. Cost: O(rules) per
-    /// form.
+    /// Returns the index and distance of the nearest form; `None` without forms. Ties go to the earlier form. Cost:
+    /// O(rules) per form.
     pub fn nearest<'a>(&self, forms: impl IntoIterator<Item = &'a GameForm>) -> Option<(usize, f64)> {
         let apart = forms.into_iter().map(|form| distance(self, form)).enumerate();
         apart.reduce(|best, next| if next.1 < best.1 { next } else { best })

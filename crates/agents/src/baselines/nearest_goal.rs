@@ -28,7 +28,7 @@ pub struct NearestGoal {
 }
 
 impl NearestGoal {
-    /// Creates a player that presses a random key in the fraction `slips` of its ticks, with its own random
+    /// Creates a player that presses a random key in the fraction `slips` of its ticks, with its own random-number
     /// streams.
     pub fn new(slips: f64, seed: Seed) -> NearestGoal {
         let (streams, distances) = (Streams::new(seed), Distances::default());

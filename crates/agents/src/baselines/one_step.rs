@@ -34,7 +34,7 @@ pub struct OneStep {
 }
 
 impl OneStep {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: OneStepConfig, seed: Seed) -> OneStep {
         OneStep { config, streams: Streams::new(seed), scratch: None }
     }

@@ -14,7 +14,7 @@ pub struct Random {
 }
 
 impl Random {
-    /// Creates a player that never draws [`Action::Nil`], with its own random stream of choices.
+    /// Creates a player that never draws [`Action::Nil`], with its own random-number stream of choices.
     pub fn new(seed: Seed) -> Random {
         Random { with_nil: false, choices: seed.child("choices", 0).sampler() }
     }

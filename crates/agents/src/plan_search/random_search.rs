@@ -31,7 +31,7 @@ pub struct RandomSearch {
 }
 
 impl RandomSearch {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: RandomSearchConfig, seed: Seed) -> RandomSearch {
         RandomSearch { config, streams: Streams::new(seed), scratch: None }
     }

@@ -46,7 +46,7 @@ struct Individual {
 }
 
 impl Rhea {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: RheaConfig, seed: Seed) -> Rhea {
         Rhea { config, streams: Streams::new(seed), plans: Vec::new(), scratch: None }
     }
@@ -82,9 +82,9 @@ impl Rhea {
         population
     }
 
-    /// Creates a child of two different plans. Each gene comes from one of the two plans, and then a few genes are
-    /// redrawn. If there is only one plan, creates a mutant of that plan. There is no selection of parents, because
-    /// the reference's tournament is as large as the set of parents.
+    /// Creates a child of two distinct plans. Each gene comes from one of the two plans, and then a few genes are
+    /// redrawn. If there is only one plan, creates a mutant of that plan. There is no selection of parents, because the
+    /// reference's tournament is as large as the set of parents.
     fn child(
         &self,
         population: &[Individual],

@@ -50,7 +50,7 @@ pub struct TouchEverything {
 }
 
 impl TouchEverything {
-    /// Creates a player with its own random stream.
+    /// Creates a player with its own random-number stream.
     pub fn new(seed: Seed) -> TouchEverything {
         TouchEverything {
             choices: seed.child("choices", 0).sampler(),
@@ -273,7 +273,7 @@ impl View<'_> {
             && !self.circumstances.1.is_empty()
     }
 
-    /// Returns the rank of a cell as a target, where 0 is best.
+    /// Returns the rank of a cell as a target, where 0 is best; `None` if the cell is not a target.
     fn rank(&self, cell: usize) -> Option<u32> {
         let is_mover = |kind: &str| self.seen.movers.iter().any(|mover| mover.name == kind);
         let rank = |kind: &str| {
@@ -295,7 +295,7 @@ impl View<'_> {
     }
 }
 
-/// Returns the avatar's cell.
+/// Returns the avatar's cell; `None` without an avatar.
 fn cell(seen: &Observation) -> Option<usize> {
     let avatar = seen.avatar.as_ref()?;
     let column = usize::try_from(avatar.column).ok().filter(|&column| column < seen.columns)?;

@@ -3,12 +3,12 @@
 use base::Sampler;
 use engine::Action;
 
-/// The maximum number of actions.
+/// The maximum number of actions of a game, and thus of branches of a node.
 pub(crate) const WIDTH: usize = Action::ALL.len();
 /// The index of a branch without a node.
 pub(crate) const UNEXPANDED: u32 = u32::MAX;
 
-/// Chooses a branch without a node, uniformly at random.
+/// Chooses a branch without a node, uniformly at random; `None` if every branch has a node.
 pub(crate) fn unexpanded(children: &[u32], choices: &mut Sampler) -> Option<usize> {
     let open = children.iter().filter(|&&child| child == UNEXPANDED).count();
     if open == 0 {

@@ -70,14 +70,14 @@ impl Node {
         Node { children: [UNEXPANDED; WIDTH], visits: 0.0, total: 0.0, least, greatest }
     }
 
-    /// Returns the mean result.
+    /// Returns the mean result of the simulations that passed through the node.
     fn value(&self) -> f64 {
         self.total / (self.visits + EPSILON)
     }
 }
 
 impl Mcts {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: MctsConfig, seed: Seed) -> Mcts {
         Mcts { config, streams: Streams::new(seed), tree: Vec::new(), path: Vec::new(), scratch: None }
     }

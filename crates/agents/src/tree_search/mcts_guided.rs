@@ -74,7 +74,7 @@ pub struct GuidedMcts {
     visits: BTreeMap<u64, u32>,
     /// The largest number of points gained or lost in a rollout.
     scale: f64,
-    /// The remaining actions of a win that is certain, in order.
+    /// The remaining actions of a certain win, in the order of play.
     plan: VecDeque<Action>,
     #[serde(skip)]
     guide: Option<Box<GoalGuide>>,
@@ -127,7 +127,7 @@ struct Root {
 }
 
 impl GuidedMcts {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: GuidedMctsConfig, seed: Seed) -> GuidedMcts {
         GuidedMcts {
             config,

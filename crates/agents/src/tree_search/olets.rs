@@ -102,7 +102,7 @@ impl Node {
 }
 
 impl Olets {
-    /// Creates a planner with its own random streams for choices and imagined outcomes.
+    /// Creates a planner with its own random-number streams for choices and imagined outcomes.
     pub fn new(config: OletsConfig, seed: Seed) -> Olets {
         Olets {
             config,

@@ -82,7 +82,8 @@ fn loaded_planners_continue_identically() {
     }
 }
 
-/// The game's own random stream is hidden: with a different future but the same present, the decision is the same.
+/// The game's own random-number stream is hidden: with a different future but the same present, the decision is the
+/// same.
 #[test]
 fn no_planner_foresees_the_future() {
     let game = Game::from_source(GAME).unwrap();

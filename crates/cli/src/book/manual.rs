@@ -77,7 +77,7 @@ pub(crate) fn pages() -> Vec<Page> {
     contents.lines().filter_map(Page::listed).collect()
 }
 
-/// Returns the page that has replaced the page called `wanted`.
+/// Returns the page that has replaced the page called `wanted`; `None` if there is no such page.
 pub(crate) fn replaced(wanted: &str) -> Option<&'static str> {
     REPLACED.iter().find(|(old, _)| *old == stem(wanted)).map(|(_, new)| *new)
 }

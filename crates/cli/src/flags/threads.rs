@@ -56,7 +56,7 @@ impl Limits {
     }
 }
 
-/// Returns the number of threads requested by the user.
+/// Returns the number of threads requested by the user; `None` without `--jobs`.
 pub(crate) fn jobs() -> Option<usize> {
     LIMITS.get().and_then(|limits| limits.jobs)
 }
@@ -76,7 +76,7 @@ pub(crate) fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Re
 fn usual() -> usize {
     #[expect(
         clippy::disallowed_methods,
-        reason = "only the number of threads depends on it, and no output on that"
+        reason = "only the number of threads depends on the variable, and no output depends on that number"
     )]
     let wanted = std::env::var("RAYON_NUM_THREADS").ok();
     let cores = available_parallelism().map_or(1, usize::from);

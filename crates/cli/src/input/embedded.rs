@@ -25,7 +25,7 @@ pub(crate) fn corpus() -> Result<Corpus, Failure> {
     Ok(Corpus { games })
 }
 
-/// Returns the text of the recipe with the given name in `seeds/`.
+/// Returns the text of the recipe with the given name in `seeds/`; `None` if there is no such recipe.
 pub(crate) fn recipe(name: &str) -> Option<&'static str> {
     SEEDS.get_file(format!("{name}.toml"))?.contents_utf8()
 }

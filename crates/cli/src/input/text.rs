@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// The first bytes of a release archive.
 pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// Reads a text file of up to `limit` bytes. Never reads more, even if the file is larger.
+/// Reads a UTF-8 text file of up to `limit` bytes. A larger file is an error, and is not read to its end.
 pub(crate) fn read_text(path: &Path, limit: usize) -> Result<String, Failure> {
     let name = path.in_message();
     let read = disk::read_start(path, limit as u64 + 1);

@@ -36,7 +36,7 @@ fn releases_are_added_to_a_scale() {
     assert_eq!(first["examinees"], second["examinees"]);
     let level = &second["months"][1]["games"][0]["levels"][0]["difficulty"][0];
     assert!(level["error"].as_f64().unwrap() > 0.0, "{level}");
-    // The second month has a linking error. The first release has no linking error.
+    // Only the second month's position on the scale has an error.
     assert_eq!(second["months"][0]["link"][0], 0.0);
     assert!(second["months"][1]["link"][0].as_f64().unwrap() > 0.0);
 }
@@ -150,8 +150,8 @@ while read -r line; do
 done
 ";
 
-/// Two readers (players that see only prompts) that play both months link the months for other readers. A reader that
-/// cannot play is rejected before any episode is played.
+/// If two readers (players that see only prompts) play both months, the second month can be placed on the scale for
+/// other readers. A reader that cannot play is rejected before any episode is played.
 #[cfg(unix)]
 #[test]
 fn readers_take_part_as_anchors() {

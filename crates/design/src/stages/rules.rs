@@ -31,7 +31,7 @@ pub(crate) fn compile(source: &str, known: &Known) -> Result<Rules, Problem> {
     Ok(Rules { source: source.to_owned(), game, nearest })
 }
 
-/// Checks rules that compile.
+/// Checks that compiled rules meet the brief and are new.
 pub(crate) fn check(rules: &Rules, brief: &Brief) -> Result<(), Problem> {
     let required = brief.required.iter();
     let mut words = required.flat_map(|word| keywords(word).into_iter().map(move |key| (word, key)));

@@ -53,7 +53,7 @@ impl Text {
         Text { text, lines }
     }
 
-    /// Returns the byte offset for a position in the protocol's format.
+    /// Returns the byte offset for a position in the protocol's format; `None` for a malformed position.
     pub(super) fn byte(&self, position: &Value, unit: Unit) -> Option<usize> {
         let count = |name: &str| {
             position.get(name)?.as_u64().map(|count| usize::try_from(count).unwrap_or(usize::MAX))
@@ -71,13 +71,14 @@ impl Text {
         json!({ "start": position(span.start), "end": position(span.end) })
     }
 
-    /// Converts a range in the protocol's format to a span of bytes.
+    /// Converts a range in the protocol's format to a span of bytes; `None` for a malformed range.
     pub(super) fn span(&self, range: &Value, unit: Unit) -> Option<Span> {
         let (start, end) = (self.byte(range.get("start")?, unit)?, self.byte(range.get("end")?, unit)?);
         Some(Span::new(start.min(end), start.max(end)))
     }
 
-    /// Applies a change in the protocol's format, which replaces a range or the whole text.
+    /// Applies a change in the protocol's format, which replaces a range or the whole text; `None` for a malformed
+    /// change.
     fn change(&mut self, change: &Value, unit: Unit) -> Option<()> {
         let text = change.get("text")?.as_str()?;
         match change.get("range") {

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, Read, Write};
 
 /// The maximum size of a message in bytes. Larger messages are skipped entirely.
 const MAX_MESSAGE: u64 = 1 << 25;
-/// The maximum length of a header line.
+/// The maximum length of a header line, in bytes.
 const MAX_LINE: u64 = 1 << 12;
 
 /// A frame in the input.

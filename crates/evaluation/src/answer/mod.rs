@@ -164,8 +164,8 @@ fn strict<'a>(said: &'a str, format: Format, listed: &[Action]) -> Option<Chosen
     .map(Chosen::Action)
 }
 
-/// Returns the action with the given name, which may be the reference engine's name or a synonym for doing
-/// nothing.
+/// Returns the action with the given name, which may be the reference engine's name or a synonym for doing nothing;
+/// `None` for any other word.
 fn action_of(word: &str) -> Option<Action> {
     let word = word.to_ascii_lowercase();
     let word = word.strip_prefix("action_").unwrap_or(&word);

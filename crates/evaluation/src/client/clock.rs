@@ -22,7 +22,10 @@ pub struct SystemClock {
 
 impl SystemClock {
     /// Creates a clock that starts at zero.
-    #[expect(clippy::disallowed_methods, reason = "waits and latencies are told, and decide no action")]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "waits and latencies are reported, but never affect an action"
+    )]
     pub fn start() -> SystemClock {
         SystemClock { start: Instant::now() }
     }
@@ -33,7 +36,7 @@ impl Clock for SystemClock {
         self.start.elapsed()
     }
 
-    #[expect(clippy::disallowed_methods, reason = "a server may say until when to wait as a date")]
+    #[expect(clippy::disallowed_methods, reason = "a server may state as a date how long to wait")]
     fn date(&self) -> SystemTime {
         SystemTime::now()
     }

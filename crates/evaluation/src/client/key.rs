@@ -11,14 +11,17 @@ pub(super) struct Key {
     secret: String,
 }
 
-/// The minimum length of keys that are searched for in answers. A shorter key could be an ordinary word.
+/// The minimum length, in bytes, of keys that are searched for in answers. A shorter key could be an ordinary word.
 const MIN_SEARCHED: usize = 16;
 
 /// The text that replaces a key in a server's reply.
 const HIDDEN: &str = "[key]";
 
 /// Reads an environment variable. The client reads only variables that contain keys.
-#[expect(clippy::disallowed_methods, reason = "keys come from the environment only, and decide no action")]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "keys come only from the environment, and never affect an action"
+)]
 pub(super) fn environment(variable: &str) -> Option<String> {
     std::env::var(variable).ok()
 }

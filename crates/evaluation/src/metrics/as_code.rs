@@ -39,7 +39,8 @@ pub fn flags_as_code(texts: &[String], actions: &[Action], rewards: &[f64]) -> V
         .collect()
 }
 
-/// Returns the row and column of the character that the reference code takes for the avatar.
+/// Returns the row and column of the character that the reference code takes for the avatar; `None` if there is no such
+/// character.
 fn place(text: &str) -> Option<(usize, usize)> {
     text.lines().enumerate().find_map(|(row, line)| {
         let column = line.chars().position(|character| character.eq_ignore_ascii_case(&'a'))?;

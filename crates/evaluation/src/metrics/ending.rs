@@ -14,7 +14,7 @@ base::named_enum! {
         Died = "died",
         /// The game was lost because a required sprite other than the avatar was removed.
         Lost = "lost_sprite",
-        /// The game was lost because a sprite of some type appeared.
+        /// The game was lost because a sprite of a certain type appeared, which the rules forbid.
         Appeared = "sprite_appeared",
         /// The time limit of the game was reached.
         OutOfTime = "out_of_time",

@@ -262,7 +262,7 @@ fn served_by(log: &[Event]) -> BTreeSet<String> {
     replies.collect()
 }
 
-/// Returns the fraction of `true` flags.
+/// Returns the fraction of `true` flags; `None` without flags.
 fn fraction(flags: &[bool]) -> Option<f64> {
     (!flags.is_empty()).then(|| flags.iter().filter(|flag| **flag).count() as f64 / flags.len() as f64)
 }

@@ -67,7 +67,7 @@ impl Movement {
     }
 }
 
-/// Returns the area of the rectangle that bounds all cells.
+/// Returns the area of the rectangle that bounds all cells; `None` without cells.
 fn area(cells: &[(i32, i32)]) -> Option<f64> {
     let side = |of: fn(&(i32, i32)) -> i32| {
         let (least, most) = (cells.iter().map(of).min()?, cells.iter().map(of).max()?);

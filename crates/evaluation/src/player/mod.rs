@@ -87,7 +87,7 @@ impl Choice {
         Choice::plan(vec![action])
     }
 
-    /// Creates a choice with several actions in order.
+    /// Creates a choice with several actions, in the order in which they will be played.
     pub fn plan(actions: Vec<Action>) -> Choice {
         Choice { actions, validity: Validity::Valid }
     }

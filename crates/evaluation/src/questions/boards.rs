@@ -13,7 +13,7 @@ const BEFORE: usize = 12;
 /// The maximum number of actions that a question asks about.
 const ASKED: usize = 5;
 
-/// The maximum number of attempts to find four different boards.
+/// The maximum number of attempts to find four distinct boards.
 const ATTEMPTS: usize = 24;
 
 /// Draws a question that asks for the board after one to five actions. The answer differs from the board shown.

@@ -56,7 +56,7 @@ pub(super) fn changed_rule(place: Place<'_>, sampler: &mut Sampler) -> Option<Ve
 }
 
 /// Draws a question about the behaviour of a sprite in a recording. The game is drawn from four variants of a released
-/// game. The variants differ in one rule, and produce four different recordings.
+/// game. The variants differ in one rule, and produce four distinct recordings.
 pub(super) fn sprite_behaviour(place: Place<'_>, sampler: &mut Sampler) -> Option<Vec<Draft>> {
     let actions = place.walk(sampler.between(LENGTH.0, LENGTH.1), sampler);
     let (about, candidates) = variants(place, &actions, sampler)?;

@@ -43,7 +43,7 @@ pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     ScalePlayer { name: "reflex-4", family: "reflex", player: "reflex", dimension: Dimension::Reader },
 ];
 
-/// Returns the scale's reference player with the given name.
+/// Returns the scale's reference player with the given name; `None` if there is no such player.
 pub fn scale_player_named(name: &str) -> Option<&'static ScalePlayer> {
     SCALE_PLAYERS.iter().find(|player| player.name == name)
 }

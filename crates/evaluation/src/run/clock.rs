@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 pub(crate) struct Stopwatch(Instant);
 
 impl Stopwatch {
-    #[expect(clippy::disallowed_methods, reason = "times are recorded, and nothing is decided by them")]
+    #[expect(clippy::disallowed_methods, reason = "times are recorded, but no decision depends on them")]
     pub(crate) fn start() -> Stopwatch {
         Stopwatch(Instant::now())
     }

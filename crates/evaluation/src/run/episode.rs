@@ -449,7 +449,7 @@ pub(crate) fn available(game: &Game, state: &State, asked: Action) -> Action {
     if game.actions(state).contains(&asked) { asked } else { Action::Nil }
 }
 
-/// Returns the first decision at or after index `from`, with its index.
+/// Returns the first decision at or after index `from`, with its index; `None` if there is no further decision.
 fn decision_after(events: &[Event], from: usize, commit: Commitment) -> Option<(usize, Choice)> {
     events.iter().enumerate().skip(from).find_map(|(at, event)| match event {
         Event::Step { action, validity: Validity::Valid, .. } if commit.is_one() => {

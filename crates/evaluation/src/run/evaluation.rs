@@ -349,8 +349,8 @@ impl Evaluation {
         let is_unfit = |task: &Task<'_>| unfit.lock().expect("no holder panics").contains(&task.subject.id);
         let tasks = self.tasks();
         self.check_ended(&tasks)?;
-        // Threads take episodes in order rather than each taking a part of the list. Therefore, every level
-        // has been played about equally often if the run is aborted.
+        // Threads take the next episode from a common list, rather than each taking a part of the list. Therefore,
+        // every level has been played about equally often if the run is aborted.
         let is_stopped = || stopped.load(Ordering::Relaxed) || watch.halt().is_some();
         let watched = |validity| {
             let halt = watch.decided(validity, |answers, is_all| progress.unusable(answers, is_all));
@@ -492,8 +492,8 @@ fn is_free(folder: &Path) -> Result<bool, EvaluationError> {
     Ok(is_ours && (!is_there(&episodes)? || names_in(&episodes)?.is_empty()))
 }
 
-/// Returns the name of the first field that differs between two evaluations. The model's server is ignored,
-/// because it does not affect the model's answers.
+/// Returns the name of the first field that differs between two evaluations; `None` if no field differs. The model's
+/// server is ignored, because it does not affect the model's answers.
 fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
     let fields = |settings: &Settings| {
         let mut fields = serde_json::to_value(settings).expect("settings are plain data");

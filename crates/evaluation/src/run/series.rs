@@ -6,7 +6,7 @@ use crate::log::{Event, Journal};
 use crate::player::{Contestant, Halt, Validity};
 use crate::run::episode::{Context, PlayResult, Task, play_watched};
 
-/// A series of episodes, in order. A level played alone is a series with one episode.
+/// A series of episodes, in the order in which they are played. A level played alone is a series with one episode.
 pub(crate) struct Series<'a> {
     pub(crate) tasks: &'a [Task<'a>],
     /// A function that receives the validity of each new decision, and can abort the episode.

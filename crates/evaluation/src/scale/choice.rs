@@ -14,7 +14,7 @@ const POWER: f64 = 1.959964 + 0.841621;
 pub struct ScaledLevels {
     /// The levels, indexed by game and level in the evaluation.
     games: Vec<PlayedGame>,
-    /// The standard error shared by the difficulties of all levels.
+    /// The error of the release's position on the scale: the standard error shared by the difficulties of all levels.
     link: f64,
     prior: MismatchPrior,
     /// `true` if `arcade study scale` could estimate the player's ability from results on each of the levels.

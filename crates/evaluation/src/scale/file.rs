@@ -51,8 +51,9 @@ pub struct ScaleFile {
     pub examinees: Vec<ExamineeEntry>,
     /// The standard deviations and slopes in the statistical model.
     pub spreads: SpreadsEntry,
-    /// The covariance matrix, stored row by row, of three groups of parameters: the examinees' abilities, the origins
-    /// for planners and for readers (players that see only prompts), and the planners' ease.
+    /// The covariance matrix of three groups of parameters, stored row by row. The groups are the examinees' abilities,
+    /// the origins for planners and for readers (players that see only prompts), and the planners' ease (their mean
+    /// logit on the first release).
     pub covariance: Vec<f64>,
     /// The mean difficulties of the first release for planners and for readers (players that see only prompts), in the
     /// coordinates of the abilities.
@@ -117,7 +118,7 @@ pub struct MonthEntry {
     /// The text from which the seeds of the release's episodes were derived.
     pub seed: String,
     /// The mean difficulty relative to the first release, for planners and for readers (players that see only prompts).
-    /// The standard errors include the link error for arbitrary players in the dimension.
+    /// The standard errors hold for arbitrary players in the dimension, not only for the scale's players.
     pub shifts: [Estimate; 2],
     /// The shift in mean difficulty for exactly the scale's planners.
     pub planners_shift: Estimate,
@@ -159,7 +160,7 @@ pub struct LevelEntry {
     /// The level's digest.
     pub digest: Digest,
     /// The level's difficulty for planners and for readers (players that see only prompts). The standard errors exclude
-    /// the link error.
+    /// the error of the release's position on the scale ([`MonthEntry::link`]).
     pub difficulty: [Estimate; 2],
 }
 

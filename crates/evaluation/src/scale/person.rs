@@ -6,11 +6,11 @@ use serde::Serialize;
 use statistics::scale::{Ability, Dimension, PlayedGame, PlayedLevel, ability};
 use std::collections::BTreeMap;
 
-/// The smallest lower bound of the correlation between both difficulties at which planners alone can link a month to
+/// The smallest lower bound of the correlation between both difficulties at which planners alone can place a month on
 /// the scale for readers, which are players that see only prompts.
 const LEAST_CORRELATION: f64 = 0.5;
-/// The minimum number of anchors (unchanging players that see only prompts) that link a month to the scale for other
-/// such players. A single anchor would not show how much it has in common with them.
+/// The minimum number of anchors (unchanging players that see only prompts) that place a month on the scale for other
+/// such players. A single anchor would not show how much it has in common with the other players.
 const ANCHORS: u64 = 2;
 
 /// The abilities of a person (a player placed on the scale), one per release.
@@ -66,7 +66,7 @@ pub struct ErrorParts {
     /// The component caused by errors in the difficulties, and by games that suit the person better or worse
     /// than others.
     pub mismatch: f64,
-    /// The component caused by the link between the release and the first release.
+    /// The component caused by the error of the release's position relative to the first release.
     pub link: f64,
 }
 
@@ -74,8 +74,8 @@ pub struct ErrorParts {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {
-    /// The release was played by fewer than two anchors (unchanging players that see only prompts). It is therefore
-    /// linked to the scale only by planners, which are not informative enough about such players.
+    /// The release was played by fewer than two anchors (unchanging players that see only prompts). Its position on the
+    /// scale therefore depends only on planners, which are not informative enough about such players.
     FewAnchors {
         /// The number of anchors (unchanging players that see only prompts) that played the release.
         anchors: u64,
@@ -112,8 +112,8 @@ pub(super) fn of_person(scale: &ScaleFile, person: &PersonPlays) -> PersonAbilit
 
 impl ScaleFile {
     /// Returns `true` if the ability of a reader (a player that sees only prompts) can be estimated on the release with
-    /// the given index. The release must be linked through anchors (unchanging readers), or through planners with a
-    /// sufficient correlation.
+    /// the given index. The release must have been placed on the scale by enough anchors (unchanging readers), or by
+    /// planners whose difficulties correlate sufficiently with those for readers.
     pub fn links_readers(&self, month: usize) -> bool {
         let is_anchored = month == 0 || self.months[month].anchors >= ANCHORS;
         is_anchored || self.correlation.is_some_and(|found| found.low >= LEAST_CORRELATION)

@@ -15,7 +15,7 @@ const AVATAR: char = '@';
 /// A prompt's parsed content.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shown<'a> {
-    /// The sentences of the rules in order, including those about the keys.
+    /// The sentences of the rules, in the prompt's order, including the sentences about the keys.
     pub(super) rules: Vec<&'a str>,
     /// The rules as VGDL, if the prompt shows them in this form.
     pub(super) vgdl: Option<&'a str>,
@@ -49,7 +49,7 @@ pub(super) struct You<'a> {
     pub(super) facing: Option<Action>,
 }
 
-/// Returns the first section of a message with the given heading.
+/// Returns the first section of a message with the given heading; `None` if there is no such section.
 fn section<'a>(message: &'a ChatMessage, heading: &str) -> Option<&'a str> {
     crate::prompt::sections(&message.text)
         .into_iter()
@@ -235,7 +235,7 @@ fn holdings(text: &str) -> BTreeMap<&str, i32> {
     items.filter_map(|(amount, name)| Some((name, amount.parse().ok()?))).collect()
 }
 
-/// Parses the number at the start of a string.
+/// Parses the number at the start of a string; `None` if the string does not start with a number.
 fn leading_number(text: &str) -> Option<u64> {
     let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     text[..end].parse().ok()

@@ -315,7 +315,7 @@ impl Study {
         if title.is_empty() { id } else { title }
     }
 
-    /// Returns all tables of a report in order.
+    /// Returns all tables of a report, in the report's order.
     pub fn tables(&self) -> Vec<Table> {
         let mut tables = players::leaderboard::tables(self);
         tables.extend(players::horizon::table(self));

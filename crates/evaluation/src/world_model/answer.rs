@@ -45,7 +45,8 @@ pub(super) fn read(task: &WorldModelTask, answer: &str, left: usize) -> Answer {
     read.unwrap_or_else(Answer::Unusable)
 }
 
-/// Returns the text from the last line that begins with `BasicGame` to the end of its fenced block.
+/// Returns the text from the last line that begins with `BasicGame` to the end of its fenced block; `None` if no line
+/// begins with `BasicGame`.
 fn source(answer: &str) -> Option<String> {
     let lines: Vec<&str> = answer.lines().collect();
     let first = lines.iter().rposition(|line| line.trim_start().starts_with("BasicGame"))?;

@@ -37,7 +37,7 @@ Use the names from the recordings. You may declare further types that are never 
 on the sprite whose type is written first. The partner EOS is the edge of the board. Every effect accepts \
 scoreChange=N. If your game has errors, you will be told the errors, and you can correct the game twice.";
 
-/// Returns the question.
+/// Returns the text of the question about a task.
 pub(super) fn question(task: &WorldModelTask) -> String {
     let mut parts = vec![INTRODUCTION.to_owned(), levels(task)];
     if let Some(words) = task.words() {

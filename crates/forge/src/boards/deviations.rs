@@ -71,7 +71,7 @@ pub(super) struct Costs {
     pub(super) deaths: f64,
     /// The tick of the last deviation that has a cost, as a fraction of the tick of the last deviation tried.
     pub(super) last: f64,
-    /// The number of forward-model calls.
+    /// The number of forward-model calls spent on testing the deviations.
     pub(super) calls: u64,
 }
 

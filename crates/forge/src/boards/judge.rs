@@ -72,7 +72,7 @@ pub(super) struct Judge<'a> {
     pub(super) seed: Seed,
 }
 
-/// A judge's verdict on a board.
+/// The judge's verdict on one board.
 #[derive(Clone, Debug)]
 pub(super) struct Judged {
     pub(super) evaluation: Evaluation,

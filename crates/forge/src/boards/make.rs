@@ -41,7 +41,7 @@ pub(crate) struct BoardSearch {
     /// The fraction of constraints met by the board closest to a win that meets the order; 1.0 if a board has such a
     /// win.
     pub(crate) feasibility: f64,
-    /// The number of forward-model calls.
+    /// The number of forward-model calls spent on the search.
     pub(crate) calls: u64,
 }
 

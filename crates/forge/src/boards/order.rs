@@ -10,7 +10,7 @@ const LENGTHS: [(usize, usize); 5] = [(12, 32), (22, 55), (25, 70), (28, 90), (3
 /// The requirements for a board.
 #[derive(Clone, Debug)]
 pub struct BoardOrder {
-    /// The contents of the board.
+    /// The types and sprites that the board must contain.
     pub brief: BoardBrief,
     /// The mechanics of an invented game, of which all but [`BoardOrder::idle`] must matter. Each mechanic is a list of
     /// interactions, as indices into [`Description::interactions`](engine::Description). A mechanic matters if the win
@@ -72,7 +72,7 @@ base::with_defaults! {
     }
 }
 
-/// A board with its win.
+/// A finished board, as a level, with its shortest known win.
 #[derive(Clone, Debug)]
 pub struct MadeBoard {
     /// The level with the board.

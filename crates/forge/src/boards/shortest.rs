@@ -10,7 +10,7 @@ const LEAST_WIDTH: u64 = 40;
 /// The maximum number of spare states. They take some tens of megabytes.
 const MAX_SPARE: usize = 4096;
 
-/// The limits of a search.
+/// The limits of a search for a shortest win.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// The maximum number of forward-model calls.
@@ -19,10 +19,10 @@ pub(super) struct Limits {
     pub(super) ticks: usize,
 }
 
-/// The result of a search.
+/// The result of a search for a shortest win.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
-    /// The actions of a win.
+    /// The actions of the win found; `None` if no win was found.
     pub(super) win: Option<Vec<Action>>,
     /// `true` if the result is proved: either the win found is the shortest, or no win exists within the maximum
     /// number of ticks.
@@ -38,7 +38,7 @@ type Met = std::collections::HashSet<SearchKey>;
 
 /// Searches for a shortest win layer by layer. Once half of the calls are spent, keeps only the most promising states
 /// per layer, spread over the avatar's positions. In a stochastic game, the search considers only the start state's own
-/// random future and ignores the random stream when it compares states. Such a search proves nothing.
+/// random future and ignores the random-number stream when it compares states. Such a search proves nothing.
 pub(super) fn shortest_win(analysis: &Analysis, start: &State, limits: Limits) -> Found {
     let is_certain = analysis.is_deterministic_from(start);
     let abstraction = analysis.abstraction(start).without_chance();

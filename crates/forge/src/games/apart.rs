@@ -5,7 +5,7 @@ use generators::Variation;
 use generators::invention::{Census, Invention, InventionConfig, InventionVariation, Lead};
 use validators::novelty::{GameForm, distance};
 
-/// The distance to every known game at which a draw is accepted immediately.
+/// The distance to every known game, from 0 (the same rules) to 1, at which a draw is accepted immediately.
 const FAR: f64 = 0.6;
 /// The maximum number of draws to compare.
 const DRAWS: u64 = 12;

@@ -14,7 +14,7 @@ use validators::Report;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Kept {
-    /// The game that its judges accepted.
+    /// The accepted game; `None` if the judges accepted no game.
     pub game: Option<KeptGame>,
     /// The counts of all candidates tried.
     pub tally: Tally,

@@ -6,12 +6,12 @@ use generators::levels::LevelConfig;
 use serde::{Deserialize, Serialize};
 use validators::{CheckedCriteria, Criteria, Criterion, CriterionSet};
 
-/// A game order.
+/// A request for generated games.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameOrder {
     /// The method of inventing games. Games from kernels (hand-written designs) are always drawn at random.
     pub method: Method,
-    /// The number of games.
+    /// The number of games to generate.
     pub count: u32,
     /// The kinds of games, used in turn.
     pub kinds: Vec<Kind>,
@@ -22,12 +22,12 @@ pub struct GameOrder {
     /// The minimum number of interactions in a game, including guards (rules that only keep sprites on the board and
     /// out of walls).
     pub least_interactions: usize,
-    /// The minimum number of different interactions, not counting guards (rules that only keep sprites on the board),
+    /// The minimum number of distinct interactions, not counting guards (rules that only keep sprites on the board),
     /// that the wins of all levels execute in total.
     pub least_mechanics: usize,
     /// The criteria that each game must meet; see [`GameOrder::criteria_by_default`].
     pub criteria: CheckedCriteria,
-    /// The effort for one game.
+    /// The numbers of attempts and looks allowed for one game.
     pub effort: GameEffort,
 }
 
@@ -50,7 +50,7 @@ impl Board {
     }
 }
 
-/// The effort per game.
+/// The numbers of attempts and looks (quick evaluations) allowed per game.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GameEffort {
     /// The number of attempts. An attempt is a drawn game, a search, or an archive round, depending on the method.

@@ -22,7 +22,7 @@ pub(super) struct Told {
     pub(super) objective: f64,
     /// The measures of the level's win.
     pub(super) measures: Measures,
-    /// The number of forward-model calls.
+    /// The number of forward-model calls spent on these measurements.
     pub(super) calls: u64,
 }
 

@@ -40,9 +40,9 @@ pub(super) struct Looker<'a> {
 /// The result of a quick evaluation.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
-    /// The evaluation for the search.
+    /// The candidate's evaluation, as the search receives it.
     pub(super) evaluation: Evaluation,
-    /// The first unmet constraint.
+    /// The name of the first unmet constraint; `None` if all are met.
     pub(super) obstacle: Option<&'static str>,
     /// `true` if a win is known, along with its measures.
     pub(super) is_won: bool,
@@ -112,7 +112,7 @@ impl Constraints {
         value >= 1.0
     }
 
-    /// Returns the name of the first unmet constraint.
+    /// Returns the name of the first unmet constraint; `None` if all constraints are met.
     fn obstacle(&self) -> Option<&'static str> {
         self.values.iter().position(|&value| value < 1.0).map(|at| NAMES[at])
     }

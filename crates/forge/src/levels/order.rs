@@ -44,12 +44,12 @@ impl FromStr for Method {
     }
 }
 
-/// A level order.
+/// A request for generated levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelOrder {
     /// The method of generating the levels.
     pub method: Method,
-    /// The number of levels.
+    /// The number of levels to generate.
     pub count: u32,
     /// The level size and the other settings of the constructive generator. If [`LevelOrder::difficulty`] is set, it
     /// overrides the configuration's difficulty.
@@ -63,7 +63,7 @@ pub struct LevelOrder {
     pub uses: Vec<RuleRef>,
     /// The criteria that each level must meet; see [`LevelOrder::criteria_by_default`].
     pub criteria: Criteria,
-    /// The effort of a search.
+    /// The numbers of rounds and looks (quick evaluations) allowed for a search.
     pub effort: Effort,
 }
 

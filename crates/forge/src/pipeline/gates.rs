@@ -17,7 +17,7 @@ impl Trial<'_> {
         cost: "seconds",
         criteria: CriterionSet::GAME.with(CriterionSet::GATES),
         replaces: Some(
-            "the first level of a course, if `progression` fails because the level gives everything away",
+            "the first level of a course, if `progression` fails because that level already uses every mechanic",
         ),
         ..Stage::once(Self::judge_all_levels)
     };

@@ -116,7 +116,7 @@ pub(crate) struct QuickLook {
     board: Option<BoardMeasures>,
     /// The fraction of board constraints met by the board closest to a win.
     nearness: f64,
-    /// The number of forward-model calls.
+    /// The number of forward-model calls spent on the evaluation.
     pub(crate) calls: u64,
 }
 

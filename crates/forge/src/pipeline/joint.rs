@@ -17,8 +17,8 @@ const CALLS: u64 = 320_000;
 impl Trial<'_> {
     pub(super) const JOINT: Stage<Self> = Stage {
         name: JOINT,
-        purpose: "for an invented game, requires that every mechanic matters on some level: without the mechanic, \
-                  there is no win, only a clearly longer win, or (for a threat) a clearly shorter win or \
+        purpose: "for an invented game, requires that every mechanic matters on at least one level: without the \
+                  mechanic, there is no win, only a clearly longer win, or (for a threat) a clearly shorter win or \
                   fewer fatal keys",
         cost: "up to a minute",
         reasons: &[JOINT],

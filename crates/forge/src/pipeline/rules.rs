@@ -33,7 +33,7 @@ impl Trial<'_> {
 
     pub(super) const MECHANICS: Stage<Self> = Stage {
         name: "mechanics",
-        purpose: "counts the different interactions that the wins execute, guards excluded: at least 3, unless the order says \
+        purpose: "counts the distinct interactions that the wins execute, guards excluded: at least 3, unless the order says \
                   otherwise",
         cost: "a replay of each win",
         reasons: &[MEAGRE],

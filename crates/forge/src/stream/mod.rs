@@ -71,7 +71,7 @@ pub enum StreamError {
     Generate {
         /// The name of the game.
         game: String,
-        /// The reason.
+        /// The reason why no level can be generated.
         why: GenerateError,
     },
     /// The criteria are invalid.

@@ -79,15 +79,15 @@ impl Group {
     }
 }
 
-/// A line of the comparison.
+/// One line of the comparison: a measure of the games in both groups.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The line's subject.
+    /// The name of the measure.
     pub name: &'static str,
     unit: Unit,
-    /// The first group's figures.
+    /// The measure's values for the first group of games.
     pub ours: Group,
-    /// The second group's figures.
+    /// The measure's values for the second group of games.
     pub theirs: Group,
     /// The mean of `ours` minus the mean of `theirs`; `None` unless both groups have a value.
     pub difference: Option<f64>,

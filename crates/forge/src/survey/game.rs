@@ -49,9 +49,7 @@ impl GameSurvey {
         let levels: Vec<Digest> = levels.iter().map(Level::digest).collect();
         let seed = *self.seed.as_bytes();
         let of = (row::FORM, engine::SEMANTICS, game.digest(), levels, &*self.criteria, seed);
-        Digest::of(
-            to_canonical_json(&of).expect("checked criteria have no numbers that JSON lacks").as_bytes(),
-        )
+        Digest::of(to_canonical_json(&of).expect("checked criteria contain only finite numbers").as_bytes())
     }
 
     /// Returns a game's row. The row does not depend on the other games or on the number of threads. Judges all levels

@@ -23,7 +23,7 @@ pub struct GateSurvey {
 pub struct GateAnswer {
     /// `true` if the game passes the gate; `None` if the gate could not judge the game.
     pub passes: Option<bool>,
-    /// The value measured by the gate.
+    /// The value measured by the gate, for tables; `None` if it measured none.
     pub figure: Option<f64>,
     /// The details from the evidence.
     pub seen: Vec<String>,

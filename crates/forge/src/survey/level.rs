@@ -32,7 +32,7 @@ pub struct SurveyedLevel {
 }
 
 impl SurveyedLevel {
-    /// Returns the measured difficulty.
+    /// Returns the level's difficulty as measured by the ladder of reference players; `None` without a ladder.
     pub fn label(&self) -> Option<Difficulty> {
         self.ladder.as_ref().map(|ladder| ladder.difficulty)
     }

@@ -43,7 +43,7 @@ pub struct GameRow {
     /// The rank correlation between the reference players' positions on the ladder (from weak to strong) and their
     /// results.
     pub order: Option<f64>,
-    /// The number of different interactions that the wins execute in total, not counting guards
+    /// The number of distinct interactions that the wins execute in total, not counting guards
     /// ([`PlayMeasures::mechanics`]).
     pub mechanics: Option<u64>,
     /// The despair on the way to a win ([`PlayMeasures::drama`]).

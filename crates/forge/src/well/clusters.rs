@@ -16,7 +16,7 @@ impl Clusters {
         Clusters { within, leaders: Vec::new(), sizes: Vec::new() }
     }
 
-    /// Adds the next game, given its distances to all earlier games, in order.
+    /// Adds the next game, given its distances to all earlier games in the order in which they were added.
     pub(super) fn add(&mut self, distances: &[f64]) {
         match self.leaders.iter().position(|leader| distances[*leader] < self.within) {
             Some(cluster) => self.sizes[cluster] += 1,
@@ -27,7 +27,8 @@ impl Clusters {
         }
     }
 
-    /// Returns the Good–Turing estimate of the probability that the next game belongs to no known cluster.
+    /// Returns the Good–Turing estimate of the probability that the next game belongs to no known cluster; `None`
+    /// without games.
     pub(super) fn unseen(&self) -> Option<f64> {
         good_turing(self.sizes.iter().copied())
     }

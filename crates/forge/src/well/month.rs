@@ -93,9 +93,9 @@ pub struct WellMonth {
 pub struct Nearest {
     /// The minimum distance.
     pub least: f64,
-    /// The 5% quantile.
+    /// The 5% quantile of the distances.
     pub low: f64,
-    /// The median.
+    /// The median distance.
     pub median: f64,
 }
 

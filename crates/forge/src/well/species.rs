@@ -18,7 +18,7 @@ impl Species {
         }
     }
 
-    /// Returns the estimated probability that the next part drawn is new.
+    /// Returns the estimated probability that the next part drawn is new; `None` without parts.
     pub(super) fn unseen(&self) -> Option<f64> {
         good_turing(self.counts.values().copied())
     }

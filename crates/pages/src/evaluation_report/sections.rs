@@ -126,7 +126,8 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     (first.chain(others).collect(), rules)
 }
 
-/// Returns a leaderboard row with the mean length of the shortest wins that are proved optimal.
+/// Returns a leaderboard row for perfect play: the mean length, in ticks, of the levels' shortest wins. Only levels
+/// whose shortest win is proved optimal count; `None` if there are none.
 fn optimum(study: &Study, columns: &[Column]) -> Option<Row> {
     let levels: Vec<Option<usize>> =
         study.games.iter().flat_map(|game| &game.levels).map(|level| level.optimal_ticks).collect();

@@ -118,7 +118,7 @@ pub(super) fn refusals(timeline: &Timeline) -> Vec<String> {
     told
 }
 
-/// Returns the hardest and the easiest month.
+/// Returns the hardest and the easiest month; `None` for fewer than two months.
 pub(super) fn extremes(timeline: &Timeline) -> Option<(&TimelineMonth, &TimelineMonth)> {
     let order = |one: &&TimelineMonth, other: &&TimelineMonth| {
         one.planners_shift.value.total_cmp(&other.planners_shift.value)

@@ -68,7 +68,7 @@ const DOORS: [&str; 11] = [
     "wardrobe",
 ];
 
-/// The minimum length of a word that is recognised as the end of a longer word.
+/// The minimum length, in letters, of a word that is recognised as the end of a longer word.
 const SHORTEST_END: usize = 4;
 
 /// A tile's drawing, without its colour and details.
@@ -106,7 +106,7 @@ pub(crate) enum Tint {
 pub(crate) enum Part {
     /// An outline with a tint. An outline without a paint is filled and has a dark rim.
     Outline(Outline, Tint, Option<Paint>),
-    /// Two eyes: their centre, their distance and their radius.
+    /// Two eyes: the point midway between them, their distance from each other, and their radius.
     Eyes([f32; 2], f32, f32),
     /// One eye, seen from the side, with its centre and radius.
     Eye([f32; 2], f32),
@@ -282,7 +282,8 @@ impl<'a> Hint<'a> {
         if adjective == "open" && !is_door() { None } else { named(".", adjective) }
     }
 
-    /// Returns the mark (the sign) for the type's state.
+    /// Returns the mark (the sign) for the type's state; `None` if the state has its own figure, or the table has no
+    /// mark for it.
     pub(crate) fn mark(self) -> Option<u16> {
         let adjective = self.adjective?;
         if self.state().is_some() {
@@ -307,7 +308,7 @@ impl<'a> Hint<'a> {
     }
 }
 
-/// Returns the table entry for a role (`@`) or an adjective (`.`).
+/// Returns the table entry for a role (`@`) or an adjective (`.`); `None` if the table has no such entry.
 fn named(sign: &str, word: &str) -> Option<u16> {
     WORDS.get(format!("{sign}{}", word.to_lowercase()).as_str()).copied()
 }

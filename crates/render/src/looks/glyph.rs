@@ -247,7 +247,7 @@ pub(crate) fn is_avatar(analysis: &Analysis, written: SpriteType) -> bool {
     analysis.avatars().iter().any(|avatar| analysis.applies(written, avatar.stype))
 }
 
-/// Returns the type whose speed changes when an avatar touches `stype`.
+/// Returns the type whose speed changes when an avatar touches `stype`; `None` if no speed changes.
 pub(crate) fn changes_speed(analysis: &Analysis, stype: SpriteType) -> Option<SpriteType> {
     analysis.encounters().iter().find_map(|met| {
         let second = met.second?;

@@ -71,7 +71,7 @@ pub struct Looks {
     looks: Vec<Look>,
     /// For each type, `true` if its sprites are visible to players.
     visible: Vec<bool>,
-    /// The types whose sprites can be visible in some episode.
+    /// The types whose sprites can be visible in at least one episode.
     shown: Vec<SpriteType>,
     /// `true` if avatars can hold resources or have health.
     holdings: bool,
@@ -226,7 +226,7 @@ fn pictures(game: &Game) -> BTreeMap<SpriteType, String> {
     pictures
 }
 
-/// Returns the variant of the key that opens a gate.
+/// Returns the variant of the key that opens a gate; `None` if no type that is drawn as a key opens it.
 fn emblem(analysis: &Analysis, gate: SpriteType, looks: &[Look]) -> Option<usize> {
     let lock = analysis.locks().iter().find(|lock| lock.stype == gate)?;
     let key = match lock.key {

@@ -234,7 +234,7 @@ pub(super) fn paid_here(analysis: &Analysis, stype: SpriteType) -> Option<String
     meetings(analysis, stype).find_map(effect).or_else(|| theft(analysis, stype))
 }
 
-/// Describes the resource that a type takes from the avatar.
+/// Describes the resource that a type takes from the avatar; `None` if it takes none.
 pub(super) fn theft(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut resources = analysis.resources().iter();
     let taken = resources.find(|resource| resource.takers.iter().any(|(taker, _)| *taker == stype))?;

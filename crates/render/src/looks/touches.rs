@@ -29,14 +29,14 @@ pub(super) fn changed(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType>
     opened.chain(uses(analysis, stype)).chain(changes_speed(analysis, stype)).collect()
 }
 
-/// Returns the resource that the avatar receives from a type.
+/// Returns the resource that the avatar receives from a type; `None` if it receives none.
 pub(super) fn given(analysis: &Analysis, stype: SpriteType) -> Option<&str> {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let resource = touches.find_map(|touch| touch.gives.iter().find(|(_, by)| *by > 0))?.0;
     Some(analysis.game().name(resource))
 }
 
-/// Describes what the avatar turns into when it touches a type.
+/// Describes what the avatar turns into when it touches a type; `None` if it does not change.
 pub(super) fn becomes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let mut touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let becomes = touches.find_map(|touch| touch.becomes)?;
@@ -70,7 +70,7 @@ pub(super) fn changes(analysis: &Analysis, stype: SpriteType) -> Option<String> 
     Some(format!("{verb} {} when touched", analysis.game().name(to)))
 }
 
-/// Describes the sprites that appear when the avatar touches a type.
+/// Describes the sprites that appear when the avatar touches a type; `None` if none appear.
 pub(super) fn makes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let touches = analysis.avatars().iter().map(|avatar| analysis.touch(avatar.stype, stype));
     let made: Vec<SpriteType> = touches.flat_map(|touch| touch.makes.iter().copied()).collect();

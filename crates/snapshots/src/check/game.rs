@@ -42,7 +42,7 @@ pub(super) struct GameCheck {
 }
 
 impl Checking<'_> {
-    /// Checks, in order, the folders whose names end with the same digest. If two folders contain the same
+    /// Checks the folders whose names end with the same digest, in the given order. If two folders contain the same
     /// game, the second folder is reported as a problem, and its witnesses are not replayed.
     pub(super) fn namesakes(&self, folders: &[(String, Files)]) -> Result<Vec<GameCheck>, SnapshotError> {
         let mut seen = BTreeMap::new();

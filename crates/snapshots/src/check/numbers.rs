@@ -65,7 +65,7 @@ fn is_score(number: f64) -> bool {
     number.abs() <= MAX_SCORE
 }
 
-/// Returns the first problem with a player's results.
+/// Returns the first problem with a player's results; `None` if there is no problem.
 fn of_rate(rate: &Rate) -> Option<String> {
     let Rate { wins, plays, interval, mean_score, .. } = *rate;
     if plays > MAX_PLAYS {

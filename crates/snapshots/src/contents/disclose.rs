@@ -64,7 +64,10 @@ pub fn withhold(manifest: &mut Manifest, secret: &Secret) -> Result<Vec<(String,
 /// # Errors
 /// Returns an error if the list differs from the committed one, or contains a file that is not allowed in it.
 pub(crate) fn disclose(manifest: &mut Manifest, part: HeldPart, bytes: &[u8]) -> Result<(), Flaw> {
-    let withheld = manifest.withheld.as_mut().expect("asked of releases that hide what they withhold");
+    let withheld = manifest
+        .withheld
+        .as_mut()
+        .expect("only sealed releases, whose manifests have `withheld`, are passed");
     let (found, stated) = (Digest::of(bytes), withheld.digest(part));
     if found != stated {
         return Err(Flaw::Altered { found, stated });

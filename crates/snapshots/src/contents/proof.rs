@@ -257,7 +257,7 @@ impl ItemProof {
     }
 }
 
-/// Returns the game to which a path in a release belongs.
+/// Returns the game to which a path in a release belongs; `None` if the path is not in a game's folder.
 fn game_of(path: &str) -> Option<&str> {
     let (game, file) = path.strip_prefix("games/")?.split_once('/')?;
     (!game.is_empty() && !file.is_empty()).then_some(game)

@@ -17,7 +17,7 @@ pub const DEALS: usize = 999;
 /// A value in a distribution, with its count in each release.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// The value.
+    /// The label's value.
     pub value: String,
     /// The count in the earlier release.
     pub before: usize,

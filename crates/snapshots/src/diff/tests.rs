@@ -107,7 +107,11 @@ fn unmeasured_difficulty_is_not_equal_difficulty() {
     };
     let turned = "wwwww\nwA gw\nw  fw\nwwwww\n";
     for (before, after, words) in [
-        (false, false, "Difficulty was not measured (no `skill`); 0 levels recur; nearest pair 0.00"),
+        (
+            false,
+            false,
+            "Difficulty was not measured (no `skill`); 0 levels recur; distance of the nearest pair of games: 0.00",
+        ),
         (false, true, "Difficulty was measured in the later release only"),
         (true, false, "Difficulty was measured in the earlier release only"),
     ] {

@@ -47,7 +47,7 @@ pub(super) fn verdict(diff: &Diff) -> String {
     let returned = diff.items.kept + diff.items.changed;
     let levels = if returned == 1 { "1 level recurs".to_owned() } else { format!("{returned} levels recur") };
     let nearest = match &diff.neighbours.across {
-        Some(across) => format!("nearest pair {:.2}", across.min),
+        Some(across) => format!("distance of the nearest pair of games: {:.2}", across.min),
         None => "no pair of games".to_owned(),
     };
     [difficulty.unwrap_or_default(), levels, nearest].join("; ")

@@ -168,7 +168,7 @@ const SOLUTIONS: &[Column] = &[
     }),
 ];
 
-/// Returns the columns of an export, in order.
+/// Returns the columns of an export, in the table's order.
 pub fn columns(solutions: bool) -> Vec<Column> {
     PLAIN.iter().chain(if solutions { SOLUTIONS } else { &[] }).copied().collect()
 }

@@ -45,7 +45,7 @@ fn shown<S: serde::Serializer>(place: &Path, serializer: S) -> Result<S::Ok, S::
 }
 
 impl Link {
-    /// Returns the link for a manifest found at `place`.
+    /// Returns the release of a manifest found at `place`, as a link of a chain.
     pub fn of(manifest: &Manifest, place: &Path) -> Link {
         let Manifest { name, root, parent, .. } = manifest;
         Link { name: name.clone(), root: *root, parent: *parent, place: place.to_path_buf() }
@@ -220,7 +220,7 @@ pub(crate) fn releases_in(folder: &Path) -> Result<Vec<PathBuf>, SnapshotError> 
     Ok(places)
 }
 
-/// Builds the chain from `start` through sound `links`.
+/// Builds the chain from `start` back through its predecessors among `links`, which are sound releases.
 fn join(start: Link, links: Vec<Link>, mut problems: Vec<String>) -> Chain {
     // The root identifies a release, so two copies of a release count as one.
     let mut by_root: BTreeMap<Digest, Link> = BTreeMap::new();

@@ -194,8 +194,8 @@ fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     format!("{small} and continue with --resume, which keeps finished jobs; {other}, and start over")
 }
 
-/// Selects the requested number of contenders from each part, and returns their indices in order. The jobs' tallies
-/// are used to explain errors.
+/// Selects the requested number of contenders from each part, and returns their indices in ascending order. The jobs'
+/// tallies are used to explain errors.
 ///
 /// # Errors
 /// Returns an error if there are too few contenders, or if no selection meets the quotas and, within one level per

@@ -317,7 +317,8 @@ impl Shards {
     }
 }
 
-/// Returns the first problem with a game in a job's result. `root` is the plan's root seed.
+/// Returns the first problem with a game in a job's result; `None` if there is no problem. `root` is the plan's root
+/// seed.
 fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
     let FrozenGame { text, card, difficulties, levels, witnesses, paths, .. } = frozen;
     let id = card.id.escape_debug();

@@ -107,7 +107,7 @@ impl Recipe {
     /// beacon's value: `known` follows from `parent`, and the beacon's value is not known yet.
     pub fn committed(&self) -> Digest {
         let recipe = serde_json::to_value(self).expect("a recipe is plain data");
-        secret::committed(&recipe).expect("a checked recipe has no numbers that JSON lacks")
+        secret::committed(&recipe).expect("a checked recipe contains only finite numbers")
     }
 
     /// Returns the seed from which everything in the release is derived. `secret` is a sealed release's secret.
@@ -138,12 +138,12 @@ impl Recipe {
     fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
-            None => "did you forget --parent? Pass the parent of the commitment, undo other changes",
+            None => "did you forget --parent? Pass the same parent as with `--commit`, undo other changes",
             Some(_) if secret.recipe == Some(alone.committed()) => {
                 "only the parent is new, because the commitment has no parent; omit --parent"
             }
             Some(_) => {
-                "is --parent a different release? Pass the parent of the commitment, undo other changes"
+                "is --parent a different release? Pass the same parent as with `--commit`, undo other changes"
             }
         }
     }
@@ -204,7 +204,7 @@ impl Recipe {
         parts.fold(0, |all, (games, levels)| all.saturating_add(games.saturating_mul(levels)))
     }
 
-    /// Returns the number of games.
+    /// Returns the total number of games.
     pub fn games(&self) -> u32 {
         self.corpus.games.saturating_add(self.new_games())
     }
@@ -216,7 +216,7 @@ impl Recipe {
         self.puzzle_parts().fold(generated, |all, part| all.saturating_add(part.games))
     }
 
-    /// Returns the section for one kind of puzzle.
+    /// Returns the section for one kind of puzzle; `None` if the recipe has no such section.
     pub fn puzzles_of(&self, kind: PuzzleKind) -> Option<&PuzzlePart> {
         match kind {
             PuzzleKind::Pushing => self.puzzles.as_ref(),

@@ -51,7 +51,7 @@ base::with_defaults! {
         pub kinds: Vec<Kind> = Vec::new(),
         /// The minimum number of interactions in a game.
         pub least_interactions: usize = 7,
-        /// The minimum number of different interactions that the wins on a game's levels execute in total.
+        /// The minimum number of distinct interactions that the wins on a game's levels execute in total.
         pub least_mechanics: usize = 3,
     }
 }

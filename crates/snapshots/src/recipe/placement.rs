@@ -13,7 +13,7 @@ const HEAD: [&str; 7] = ["name", "description", "authors", "publisher", "seed", 
 const TABLES: [&str; 9] =
     ["beacon", "board", "corpus", "criteria", "difficulty", "generated", "invented", "known", "taxonomy"];
 
-/// Returns the name of the first table that contains a key, such as `corpus.criteria`.
+/// Returns the name of the first table that contains a key, such as `corpus.criteria`; `None` if no table contains it.
 fn table_with(key: &str, tables: &toml::Table) -> Option<String> {
     tables.iter().find_map(|(name, value)| {
         let table = value.as_table()?;

@@ -41,8 +41,8 @@ const NONCE_CONTEXT: &str = "infinite-arcade 2 nonce of a secret";
 const COMMITMENT_CONTEXT: &str = "infinite-arcade 2 commitment";
 const SALT_CONTEXT: &str = "infinite-arcade 3 salt of withheld files";
 
-/// The minimum number of different bytes in 32 random bytes, and the minimum number of different steps from one byte
-/// to the next. All but one in a billion drawn secrets reach both minimums. A sequence with a period of at most 16
+/// The minimum number of distinct bytes in 32 random bytes, and the minimum number of distinct differences between
+/// successive bytes. All but one in a billion drawn secrets reach both minimums. A sequence with a period of at most 16
 /// bytes does not.
 const DISTINCT: usize = 17;
 

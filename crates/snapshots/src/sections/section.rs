@@ -118,8 +118,8 @@ pub(crate) trait Section: Sync {
         0.0
     }
 
-    /// Returns a sentence about the problem with the section's additions to a game in a job's result. `root`
-    /// is the plan's seed.
+    /// Returns a sentence about the problem with the section's additions to a game in a job's result; `None` if there
+    /// is no problem. `root` is the plan's seed.
     fn job_problem(
         &self,
         _recipe: &Recipe,
@@ -155,12 +155,13 @@ pub(crate) trait Section: Sync {
         Ok(None)
     }
 
-    /// Returns a paragraph about the section for a release's README.
+    /// Returns a paragraph about the section for a release's README; `None` if the README has none.
     fn readme(&self, _recipe: &Recipe) -> Option<&'static str> {
         None
     }
 
-    /// Returns the path of the file that [`Section::summary`] creates for a release with the given manifest.
+    /// Returns the path of the file that [`Section::summary`] creates for a release with the given manifest; `None` if
+    /// it creates no file.
     fn summary_path(&self, _manifest: &Manifest) -> Option<String> {
         None
     }

@@ -60,7 +60,7 @@ pub struct Ability {
     /// The error component caused by games that suit the player better or worse than others, and by the errors in the
     /// games' difficulties.
     pub mismatch: f64,
-    /// The error component caused by the link between the month's release and the first release.
+    /// The error component caused by the error of the month's position relative to the first release.
     pub link: f64,
     /// The 95% interval of the ability.
     pub interval: Interval,
@@ -86,7 +86,8 @@ pub(super) const TAIL: f64 = 5.0;
 /// The number of parts into which each ability step is divided for computing the interval.
 const PARTS: usize = 10;
 
-/// Estimates a player's ability. `link` is the standard error that the difficulties of all levels share.
+/// Estimates a player's ability. `link` is the error of the month's position on the scale, which the difficulties of
+/// all levels share.
 ///
 /// Returns `None` if there are no episodes, if a number is not finite, or if an entry has more wins than
 /// episodes. Cost: O(levels + games) times several thousand.

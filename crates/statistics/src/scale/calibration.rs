@@ -19,7 +19,7 @@ pub struct Estimated {
 }
 
 impl Estimated {
-    /// Returns the 95% confidence interval.
+    /// Returns the 95% confidence interval of the value.
     pub fn interval(&self) -> crate::Interval {
         let half = crate::Z95 * self.error;
         crate::Interval { low: self.value - half, high: self.value + half }
@@ -32,7 +32,8 @@ impl Estimated {
 pub struct Difficulties {
     /// The difficulty of each level, with its standard error.
     pub levels: Vec<Estimated>,
-    /// The standard error that all of the game's levels share, without the link error.
+    /// The standard error that all of the game's levels share, excluding the error of the month's position on the scale
+    /// ([`Month::link`]).
     pub common: f64,
 }
 
@@ -48,7 +49,7 @@ impl Difficulties {
 #[derive(Clone, Debug, PartialEq)]
 pub struct GameDifficulties {
     /// The difficulties for planners and for readers (players that see only prompts). The standard errors exclude the
-    /// link error.
+    /// error of the month's position on the scale ([`Month::link`]).
     pub difficulties: [Difficulties; 2],
     /// The sum of squared residuals divided by the sum of their variances. It is about 1 if the episodes on the game
     /// fit the model, and greater if they do not.
@@ -61,13 +62,14 @@ pub struct Month {
     /// The release's games, in the order of the given results.
     pub games: Vec<GameDifficulties>,
     /// The difference in mean level difficulty between the month and the first release, for planners and for readers
-    /// (players that see only prompts). The errors include the link error for arbitrary players in that dimension.
+    /// (players that see only prompts). The errors hold for arbitrary players in that dimension, not only for the
+    /// calibration's players.
     pub shifts: [Estimated; 2],
-    /// The shift in mean difficulty for exactly the planners in the calibration. The error includes the link error
-    /// for these planners.
+    /// The shift in mean difficulty for exactly the planners in the calibration. The error holds only for these
+    /// planners.
     pub planners_shift: Estimated,
-    /// The standard error that the difficulties of all levels share, for planners and for readers (players that see
-    /// only prompts). The error of the first release is 0.
+    /// The error of the month's position on the scale: the standard error that the difficulties of all levels share,
+    /// for planners and for readers (players that see only prompts). It is 0 for the first release.
     pub link: [f64; 2],
     /// The part of the month's difficulty for readers (players that see only prompts) that its difficulty for planners
     /// does not imply. `None` if no anchor (a reader from the calibration) played.

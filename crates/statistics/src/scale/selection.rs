@@ -74,7 +74,7 @@ pub struct Chosen {
     pub level: usize,
     /// The ability estimated from the previous episodes.
     pub ability: f64,
-    /// The ability's standard error, without the link error.
+    /// The ability's standard error, excluding the error of the month's position on the scale.
     pub error: f64,
 }
 
@@ -96,7 +96,8 @@ impl Selection {
         Selection { games, chosen, mismatch, runs: runs as f64, logs, parts }
     }
 
-    /// Returns the ability estimated from the recorded episodes. The standard error excludes the link error.
+    /// Returns the ability estimated from the recorded episodes. The second value is the standard error, excluding the
+    /// error of the month's position on the scale.
     pub fn ability(&self) -> (f64, f64) {
         let most = self.logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let weights: Vec<f64> = self.logs.iter().map(|log| libm::exp(log - most)).collect();

@@ -172,15 +172,15 @@ pub struct AbilityCase {
     pub episodes: usize,
 }
 
-/// The link errors of a month. Each pair contains the difference between the estimate and the true value, and the
-/// stated error.
+/// The errors of a month's position on the scale (its *link* to the first month). Each pair contains the difference
+/// between the estimate and the true value, and the stated error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkTrial {
-    /// The link error for exactly the planners in the calibration.
+    /// The error for exactly the planners in the calibration.
     pub to_these: (f64, f64),
-    /// The link error for arbitrary planners.
+    /// The error for arbitrary planners.
     pub to_any: (f64, f64),
-    /// The link error for the month's difficulties for readers, which are players that see only prompts.
+    /// The error of the month's difficulties for readers, which are players that see only prompts.
     pub to_readers: (f64, f64),
     /// The error of the drift (the additional difficulty for readers, which see only prompts), estimated from the
     /// month's readers. Without readers, the pair is (0, ∞).
@@ -196,11 +196,11 @@ pub struct AbilityTrial {
     pub off: f64,
     /// The stated standard error.
     pub error: f64,
-    /// `true` if the 95% interval contains the true ability.
+    /// `true` if the 95% interval of the estimate contains the true ability.
     pub is_covered: bool,
 }
 
-/// Two linked months: the first is calibrated, and the second is added to the scale.
+/// Two months on one scale: the first is calibrated, and the second is added to the scale.
 struct Linked {
     simulator: Simulator,
     first: SimulatedMonth,
@@ -336,8 +336,8 @@ mod tests {
         Plan { games: 24, levels: 3, families, runs: 4, anchors, anchor_runs: 2, replicates: 0, spreads }
     }
 
-    /// The errors of the links between small months are as stated. The link for exactly the planners in the
-    /// calibration has the smallest error.
+    /// When small monthly releases are placed on a common scale, the stated errors of their shifts match the true
+    /// errors. A shift for exactly the planners in the calibration has a smaller error than a shift for any planner.
     #[test]
     fn links_are_as_exact_as_stated() {
         let trials: Vec<LinkTrial> =

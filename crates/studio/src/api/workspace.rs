@@ -49,12 +49,12 @@ fn summary(studio: &Studio, game: &GameEntry) -> Value {
     })
 }
 
-/// Returns a field of a game's card.
+/// Returns a field of a game's card; `None` if the card has no such field.
 fn of_card<'a>(game: &'a GameEntry, field: &str) -> Option<&'a Value> {
     game.card.as_ref()?.get(field)
 }
 
-/// Returns the highest tier among a game's levels.
+/// Returns the highest tier among a game's levels; `None` if no tier is known.
 fn hardest(game: &GameEntry) -> Option<u64> {
     let levels = of_card(game, "levels")?.as_array()?;
     levels.iter().filter_map(|level| level.get("tier")?.as_u64()).max()
@@ -184,7 +184,7 @@ pub(crate) struct Copy {
     title: String,
 }
 
-/// The maximum length of the folder name for a copy.
+/// The maximum length of the folder name for a copy, in characters.
 const MAX_FOLDER: usize = 60;
 
 pub(crate) fn copy(studio: &Studio, asked: Copy) -> Result<Value, Refusal> {

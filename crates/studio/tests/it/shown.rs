@@ -1,4 +1,5 @@
-//! Tests of malicious names: the content of a game, a card or a level is always returned as data.
+//! Tests of malicious names: the studio returns the texts of games, cards and levels as plain data, never as markup or
+//! script.
 
 use crate::client::{Running, entry, in_memory, run, studio, text};
 use infinite_arcade_studio::Place;

@@ -157,7 +157,7 @@ impl Log {
             .collect()
     }
 
-    /// Returns the bytes of the entry with the given number.
+    /// Returns the bytes of the entry with the given number; `None` if the log has no such entry.
     pub fn entry(&self, number: u64) -> Option<&[u8]> {
         self.entries.get(usize::try_from(number).ok()?).map(Vec::as_slice)
     }

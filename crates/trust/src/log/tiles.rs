@@ -70,8 +70,8 @@ pub(super) fn files(entries: &[Vec<u8>], leaves: &[Hash], old: u64) -> Vec<Tile>
     files
 }
 
-/// Returns the folders for all partial tiles that a log with these entries may have contained. Each folder
-/// comes with the tile's possible parts, in order.
+/// Returns the folders for all partial tiles that a log with these entries may have contained. Each folder comes with
+/// the parts (encoded entries, or hashes) that its tile may contain, in the log's order.
 pub(super) fn parts(entries: &[Vec<u8>], leaves: &[Hash]) -> Vec<(String, Vec<Vec<u8>>)> {
     let mut found = Vec::new();
     let mut add = |level: &str, parts: Vec<Vec<u8>>| {

@@ -83,7 +83,10 @@ fn one_key_signs_one_root() {
     let other = found.judge("2027-01", &Digest::of(b"other"), &Anchor::Key(ada.new.public.clone()));
     assert!(other.problems[0].contains("no signed statement says that `2027-01` has the root"), "{other:?}");
     let renamed = found.judge("2027-02", &root(), &Anchor::Key(ada.new.public.clone()));
-    assert!(renamed.problems[1].contains("the statement is about `2027-01`"), "{renamed:?}");
+    assert!(
+        renamed.problems[1].contains("the statement is about a different release, `2027-01`"),
+        "{renamed:?}"
+    );
     // For a reader who trusts a set, the statement must name a set, because a lone signature may be older
     // than a revocation.
     let set = KeySet::next(None, Some(1), vec![ada.named()], &[]).unwrap();

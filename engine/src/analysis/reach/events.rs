@@ -126,7 +126,7 @@ impl<'a> Events<'a> {
         self.placed
     }
 
-    /// Returns the sources of resources, by resource and by giving type.
+    /// Returns the sources of resources, by resource and by the type of the sprites that provide it.
     pub(super) fn gifts(&mut self) -> BTreeMap<(SpriteType, SpriteType), Gift> {
         let mut gifts: BTreeMap<(SpriteType, SpriteType), Gift> = BTreeMap::new();
         for meeting in self.flood.model.meetings {

@@ -110,12 +110,12 @@ impl Reach {
         (self.board.columns as usize, self.board.rows as usize)
     }
 
-    /// Returns the cells in which a sprite of the type can be between two ticks, in order.
+    /// Returns the cells in which a sprite of the type can be between two ticks, in ascending order.
     pub fn cells(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.rest[stype.index()])
     }
 
-    /// Returns the cells in which a sprite of the type can be at some point in a tick, in order. The result
+    /// Returns the cells in which a sprite of the type can be at some point in a tick, in ascending order. The result
     /// includes cells from which the sprite is moved back, and cells in which the sprite is removed.
     pub fn touched(&self, stype: SpriteType) -> impl Iterator<Item = usize> + '_ {
         self.on_board(&self.touch[stype.index()])

@@ -184,9 +184,9 @@ pub(crate) fn facts(rules: &Rules, encounters: &[Encounter]) -> Vec<Facts> {
     facts
 }
 
-/// Returns, for each type, whether the player's avatar can be of that type in some level, regardless of the
-/// characters that the level uses. The avatar is determined when a level starts. From then on, the player
-/// controls whatever the avatar turns into.
+/// Returns, for each type, whether the player's avatar can be of that type in at least one level, regardless of the
+/// characters that the level uses. The avatar is determined when a level starts. From then on, the player controls
+/// whatever the avatar turns into.
 fn played(rules: &Rules, exists: &[bool], encounters: &[Encounter]) -> Vec<bool> {
     let is_avatar = |at: usize| rules.types[at].is_like_avatar() && exists[at];
     let mut played = vec![false; exists.len()];

@@ -12,7 +12,7 @@ use crate::syntax::{Param, Word};
 /// The index that stands for unknown keywords. A shield against an unknown keyword has no effect.
 pub(in crate::compile) const NO_KEYWORD: u16 = u16::MAX;
 
-/// Returns a keyword's index among all effect keywords.
+/// Returns a keyword's index among all effect keywords; `None` for an unknown keyword.
 pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
     keywords::EFFECTS.iter().position(|known| *known == keyword).map(|at| at as u16)
 }

@@ -17,7 +17,7 @@ pub(crate) trait Arguments {
     /// Returns a required sprite type. For an undeclared name, returns [`SpriteType::NONE`], which stops the
     /// game only if it is used.
     fn sprite_or_none(&mut self, key: &'static str) -> SpriteType;
-    /// Returns an optional sprite type.
+    /// Returns the sprite type that a parameter names, or `None` if the parameter is missing.
     fn optional_sprite(&mut self, key: &'static str, undeclared: Undeclared) -> Option<SpriteType>;
     /// Returns an optional type that is specified by its registry index. The reference accepts an index for
     /// some types.

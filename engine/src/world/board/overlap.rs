@@ -30,7 +30,7 @@ impl Hit {
 
 /// The sprites that overlap a sprite. There are usually only a few.
 pub(crate) type Hits = SmallVec<[Hit; 8]>;
-/// The slots of the hits.
+/// The slots of the sprites that overlap a sprite.
 pub(crate) type Partners = SmallVec<[Slot; 8]>;
 
 impl World {

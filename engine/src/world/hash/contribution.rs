@@ -110,7 +110,7 @@ impl FlightMotion {
         ((self.0 & !FlightMotion::AGES) >> 48) as u16
     }
 
-    /// Returns the word's growth per move.
+    /// Returns the amount by which the word grows with each move of the sprite.
     fn growth(self) -> u64 {
         let by = point(i32::from(self.0 as i16), i32::from((self.0 >> 16) as i16));
         let later =

@@ -28,12 +28,12 @@ pub(crate) struct TypeBits {
     pub(crate) partners: u64,
 }
 
-/// A game's models.
+/// The models of a game's sprite types, and the types' bits in the cell masks.
 #[derive(Clone, Debug)]
 pub(crate) struct Models {
-    /// Each type's model.
+    /// The model of each type, from which new sprites are copied.
     pub(crate) of_type: Vec<Model>,
-    /// Each type's bits.
+    /// Each type's bits in the cell masks.
     pub(crate) bits: Vec<TypeBits>,
     /// For each type, the bits of the types in its tree.
     pub(crate) trees: Vec<u64>,

@@ -86,10 +86,10 @@ pub(crate) struct Sprite {
     pub(crate) activity: u16,
     /// For a sprite in flight, the number of ticks between its moves (`flight.rs`). For all other sprites, 0.
     pub(crate) period: u16,
-    /// The neighbours in the type's chain.
+    /// The next and previous slot in the chain (linked list) of the type's sprites.
     pub(crate) next: Slot,
     pub(crate) previous: Slot,
-    /// The neighbours in the cell's chain.
+    /// The next and previous slot in the chain (linked list) of the cell's sprites.
     pub(crate) cell_next: Slot,
     pub(crate) cell_previous: Slot,
     /// The cell's column and row. The ring around the board has column 0 and row 0.

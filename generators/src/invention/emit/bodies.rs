@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// A game's types, grouped by body.
 pub(super) struct Bodies {
     pub(super) of: Vec<(String, Body)>,
-    /// Movers that turn around when stopped.
+    /// Types of self-moving sprites that turn around when stopped.
     pub(super) marching: BTreeSet<String>,
     /// Types that stand still until they turn into a different type.
     pub(super) still: BTreeSet<String>,
@@ -30,7 +30,7 @@ impl Bodies {
         self.of.iter().filter(move |(_, other)| *other == body).map(|(name, _)| name.as_str())
     }
 
-    /// Returns the rules for pushing.
+    /// Returns the interactions by which the player pushes crates.
     pub(super) fn pushes(&self, before: &[InteractionLine]) -> Vec<InteractionLine> {
         let moving: Vec<&str> = self.with(Body::Mover).chain(self.with(Body::Flash)).collect();
         let push = |name: &str| {
@@ -51,7 +51,7 @@ impl Bodies {
         lines.filter(|line| !line.second.is_empty()).collect()
     }
 
-    /// Returns the rules for blocking.
+    /// Returns the interactions by which solid types stop other types.
     pub(super) fn stops(&self, before: &[InteractionLine]) -> Vec<InteractionLine> {
         let solid = |mover: &str| -> Vec<&str> {
             let all = ["wall"].into_iter().chain(self.with(Body::Solid));

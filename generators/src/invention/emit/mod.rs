@@ -202,8 +202,8 @@ fn sprites(
     Ok(lines)
 }
 
-/// Returns `true` if a mechanic's line for a type is used. For a mover, only the line from the mechanic that moves it
-/// is used.
+/// Returns `true` if a mechanic's line for a type is used. For a type that moves by itself, only the line from the
+/// mechanic that moves it is used.
 fn is_of(types: &[Merged], mechanic: usize, own: &str) -> bool {
     let merged = types.iter().enumerate().find(|(class, _)| name(*class) == own);
     merged.is_none_or(|(_, merged)| {

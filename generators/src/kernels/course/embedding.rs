@@ -118,7 +118,7 @@ impl Embedding {
             }
             let all = (embedding.columns * embedding.rows) as f64;
             let used: usize = embedding.rooms.iter().map(|room| room.width() * room.height()).sum();
-            // Prefer boards of about the wanted shape, with little solid wall and no more floor than necessary.
+            // Prefer boards of about the requested shape, with little solid wall and no more floor than necessary.
             let shape = embedding.columns as f64 / embedding.rows as f64;
             let needed: usize = needs.iter().map(|(width, height)| width * height).sum();
             let waste = used as f64 / needed as f64;

@@ -27,7 +27,7 @@ pub(super) fn furnish(
             traits,
             placed: Vec::new(),
         };
-        // Movers on lanes come first, followed by the other items that need a specific position.
+        // Sprites that move along lanes come first, followed by the other items that need a specific position.
         let mut items: Vec<&Item> =
             room.items.iter().filter(|item| furnisher.is_there(&item.stype)).collect();
         items.sort_by_key(|item| match item.place {

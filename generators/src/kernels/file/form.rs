@@ -1,5 +1,5 @@
 //! The forms of a kernel (a hand-written game design): the same dilemma with a different ending, different sprite
-//! types, or different movers.
+//! types, or different moving sprites.
 
 use super::kernel::{Casting, File, LevelFile, VariantFile};
 use crate::kernels::words::phrase;

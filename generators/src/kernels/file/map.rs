@@ -137,7 +137,10 @@ impl Map {
         }
         if let Some(room) = map.unreachable() {
             let line = map.rooms[room].name.clone();
-            return Err(MapError { line, message: "no links lead here from the first room".to_owned() });
+            return Err(MapError {
+                line,
+                message: "no chain of links leads from the first room to this room".to_owned(),
+            });
         }
         Ok(map)
     }
@@ -206,7 +209,7 @@ impl Map {
         self
     }
 
-    /// Returns the types placed by the map, in order and with repetitions.
+    /// Returns the types placed by the map, first in rooms and then in links, with repetitions.
     pub(crate) fn types(&self) -> impl Iterator<Item = &str> {
         let rooms = self.rooms.iter();
         let placed = rooms.flat_map(|room| room.items.iter().map(|item| &item.stype).chain(&room.fill));

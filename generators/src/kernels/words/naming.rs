@@ -22,8 +22,8 @@ const VAGUE: &[&str] = &[
 /// Last words that denote an amount of a material. Authors name the material instead.
 const AMOUNTS: &[&str] = &["bale", "bunch", "bundle", "heap", "lump", "pile", "puff", "sheaf"];
 
-/// The maximum length of a state's full name. If the full name would be longer, the state is named by its adjective
-/// alone.
+/// The maximum length of a state's full name, in characters. If the full name would be longer, the state is named by
+/// its adjective alone.
 const LONGEST: usize = 20;
 
 /// Draws names for a game's types, by their names in the kernel. `wall` and types without a noun keep their names.

@@ -24,7 +24,7 @@ pub(crate) struct Builder<'a> {
     pub(crate) config: &'a LevelConfig,
     pub(crate) sampler: Sampler,
     pub(crate) board: Board,
-    /// The cells and types of all placed sprites, in order.
+    /// The cells and types of all placed sprites, in the order of placement.
     pub(crate) log: Vec<(usize, SpriteType)>,
     /// The target drawn from the examples, if there are any.
     pub(crate) target: Option<Target>,

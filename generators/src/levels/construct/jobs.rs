@@ -16,7 +16,7 @@ pub(crate) struct Job {
     pub(crate) merges: bool,
     /// `true` if the pushed sprite, or the sprite that it turns into, remains in the cell.
     pub(crate) stays: bool,
-    /// `true` if the partner is removed.
+    /// `true` if the push removes the partner.
     pub(crate) fills: bool,
     /// `true` if the avatar can walk over the partner.
     pub(crate) walkable: bool,
@@ -25,7 +25,7 @@ pub(crate) struct Job {
 /// The plan for a level with pushable objects.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Jobs {
-    /// The pushes, in order.
+    /// The pushes, in the order in which the avatar makes them.
     pub(crate) jobs: Vec<Job>,
     /// `true` if the last job bridges the gap in front of the sprites to visit.
     pub(crate) bridge: bool,

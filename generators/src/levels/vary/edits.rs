@@ -11,10 +11,10 @@ use engine::analysis::{Motion, Role, Steering};
 const NEAR: usize = 2;
 /// The maximum number of wall cells that move together.
 const SEGMENT: usize = 6;
-/// The minimum side length of the part of a level to redraw.
+/// The minimum side length, in cells, of the part of a level to redraw.
 const PART: usize = 4;
 
-/// A kind of change.
+/// A kind of edit of a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Edit {
     /// Moves a sprite to a nearby cell. A straight mover stays in its row or column.

@@ -38,7 +38,7 @@ enum Question {
     Power,
     /// Players that replay published solutions: how often exact tests of memory flag them
     Memory,
-    /// The scale: errors of the link between two months
+    /// The scale: errors of a month's position relative to the month before
     Link,
     /// The scale: errors and coverage of abilities
     Ability,
@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Returns one table row per case in `cases`. The rows are computed in parallel, each with its own random
+/// Returns one table row per case in `cases`. The rows are computed in parallel, each with its own random-number
 /// stream.
 fn rows<T: Copy + Sync>(
     args: &Args,

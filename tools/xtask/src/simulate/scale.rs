@@ -1,5 +1,5 @@
-//! Simulations of the scale, which compare the stated errors of links, abilities and drifts with the true
-//! errors.
+//! Simulations of the scale, which compare the stated errors of the months' positions (links), of abilities and of
+//! drifts with the true errors.
 
 use super::{Args, share};
 use rayon::prelude::*;
@@ -45,7 +45,7 @@ fn errors(found: &[(f64, f64)]) -> [TableCell; 3] {
     [share(square.sqrt()), share(stated), share(covered as f64 / count)]
 }
 
-/// Simulates the link between two months of 120 games with 5 levels each.
+/// Simulates estimating the difference in difficulty between two months of 120 games with 5 levels each.
 pub(super) fn link(args: &Args) -> Table {
     let count = args.trials.unwrap_or(200);
     let cases = [
@@ -81,7 +81,7 @@ pub(super) fn link(args: &Args) -> Table {
     table
 }
 
-/// Simulates estimating a player's ability on a linked month.
+/// Simulates estimating a player's ability on a month that has been placed on the scale.
 pub(super) fn ability(args: &Args) -> Table {
     let count = args.trials.unwrap_or(50);
     let alone = plan(vec![1; 8], 2);

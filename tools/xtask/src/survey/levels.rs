@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let columns =
         [&["game", "levels", "made", "whole"][..], &shares, &FIT, &["maximum ms", "missing"]].concat();
     let note = "Percentages of the levels that were made; columns, rows and cover: within the range of \
-                the game's own.";
+                the game's own levels.";
     let mut table = Table::new("survey", "Levels from the constructive generator", note, &columns);
     let (mut games, mut sums) = (0, vec![[0, 0]; SHARES.len() + FIT.len()]);
     for folder in args.games.iter().map(|games| folders(games)).collect::<Result<Vec<_>, _>>()?.concat() {

@@ -12,9 +12,9 @@ pub enum Tier {
     One = 1,
     /// Some decisions, and one trap that punishes hasty decisions.
     Two = 2,
-    /// Long plans against two traps.
+    /// Many decisions, and two traps that punish short-sighted plans.
     Three = 3,
-    /// Very long plans against three traps.
+    /// Very many decisions, and three traps.
     Four = 4,
 }
 
@@ -37,7 +37,7 @@ pub const TIERS: [TierBounds; 4] = [
     TierBounds { tier: Tier::Four, decisions: 120, traps: 3 },
 ];
 
-/// The longest number of actions per decision at which the need to foresee counts as a trap.
+/// The greatest number of actions per decision at which the need to foresee counts as a trap.
 const FORESIGHT: Commitment = Commitment::Five;
 /// The minimum fraction of dead ends, among the states near the win, at which dead ends count as a trap.
 const DEAD_ENDS: f64 = 0.03;
@@ -51,7 +51,7 @@ impl Demand {
     ///
     /// 1. Planners with a small budget win only with short plans, if at all.
     /// 2. At least 3% of the states near the win are dead ends.
-    /// 3. At least three movers come next to the route.
+    /// 3. At least three self-moving sprites come next to the route.
     /// 4. Greedy players lose at least three of four episodes.
     pub fn traps(&self) -> [bool; 4] {
         [

@@ -13,7 +13,7 @@ use engine::{Diagnostics, MAX_SOURCE, dialect, syntax};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Prints a game in canonical form: sections in order, indented by four spaces, with its comments.
+/// Prints a game in canonical form: sections in their canonical order, indented by four spaces, with its comments.
 ///
 /// With --from, converts a game from a different dialect. Everything with an exact equivalent is converted, and the
 /// rest is listed on standard error with line numbers. Exit status 1 means that something could not be converted.

@@ -147,7 +147,7 @@ fn corpus() -> Result<Vec<Source>, Failure> {
     embedded::corpus()?.games.into_iter().map(read).collect()
 }
 
-/// The items of a run, in order.
+/// The items of a run, in the order of their indices.
 struct Items<'a> {
     args: &'a Args,
     console: &'a Console,
@@ -163,7 +163,8 @@ struct Items<'a> {
 }
 
 impl Items<'_> {
-    /// Makes the items on all threads, and outputs them in order. Returns the number of indices without a level.
+    /// Makes the items on all threads, and outputs them in the order of their indices. Returns the number of indices
+    /// without a level.
     fn make(&mut self, stream: &Stream) -> Result<u64, Failure> {
         let Args { from, count, .. } = *self.args;
         let hint = match self.draft {

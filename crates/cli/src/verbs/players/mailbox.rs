@@ -307,7 +307,8 @@ fn wrapped(text: &str, width: usize) -> String {
         .join("\n")
 }
 
-/// Returns the action that a line specifies by its full name, its first letters or an arrow key.
+/// Returns the action that a line specifies by its full name, its first letters or an arrow key; `None` if no action
+/// fits, or more than one.
 fn action<'a>(line: &str, actions: &'a [String]) -> Option<&'a str> {
     let typed = match line {
         // The escape sequences of a terminal's arrow keys.

@@ -147,7 +147,7 @@ fn open(args: &Args, settings: &RunSettings, console: &Console) -> Result<Player
     disk::create_folder(out).map_err(|error| Failure::write(out, error))?;
     let file = out.join(SETTINGS_FILE);
     let entries = fs::read_dir(out).map_err(|error| Failure::write(out, error))?.count();
-    let written = to_canonical_json(settings).expect("settings have no numbers that JSON lacks");
+    let written = to_canonical_json(settings).expect("settings contain only finite numbers");
     match args.resume {
         false if entries > 0 => bail!(
             "{} is not empty; choose a new folder, or continue the same command with --resume",
@@ -220,7 +220,7 @@ fn line(id: &str, examined: &Examined) -> String {
 
 fn finish(args: &Args, player: &Player, examined: &[(&str, Examined)], console: &Console) -> Answer {
     let results: BTreeMap<_, _> = examined.iter().map(|(id, examined)| (*id, examined)).collect();
-    let text = to_canonical_json(&results).expect("results have no numbers that JSON lacks");
+    let text = to_canonical_json(&results).expect("results contain only finite numbers");
     write(&args.out.join("results.json"), &text)?;
     if let Player::Mailbox(mailbox) = player {
         let usable = examined.iter().filter(|(_, examined)| examined.problems.is_none()).count();

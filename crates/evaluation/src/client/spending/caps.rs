@@ -119,7 +119,8 @@ impl Caps {
 }
 
 impl Limits {
-    /// Returns the limit that the given amounts would exceed, written as its command-line option.
+    /// Returns the limit that the given amounts would exceed, written as its command-line option; `None` if they stay
+    /// within all limits.
     fn exceeded(&self, spent: &Spent) -> Option<String> {
         if let Some(limit) = self.cost.filter(|limit| spent.cost > *limit) {
             return Some(format!("--max-cost {limit}"));

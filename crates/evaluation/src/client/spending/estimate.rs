@@ -18,7 +18,7 @@ pub(in crate::client) fn prompt_tokens(request: &ChatRequest) -> u64 {
     request.messages.iter().map(message).sum()
 }
 
-/// Returns the width and height of a PNG image, read from the image's first chunk.
+/// Returns the width and height of a PNG image, read from the image's first chunk; `None` if there are too few bytes.
 fn size(png: &[u8]) -> Option<(u32, u32)> {
     let word = |at: usize| Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?));
     Some((word(16)?, word(20)?))

@@ -367,7 +367,8 @@ fn look(path: &Path) -> Result<Look, EvaluationError> {
     }
 }
 
-/// Splits a prompt file's name into its address and its kind, such as `prompt.txt` or `answer.txt`.
+/// Splits a prompt file's name into its address and its kind, such as `prompt.txt` or `answer.txt`; `None` for any
+/// other name.
 fn split(name: &str) -> Option<(Address, &str)> {
     let (address, kind) = name.split_once('.')?;
     Some((address.parse().ok()?, kind))

@@ -28,10 +28,10 @@ pub(super) const EXIT_TIME: Duration = Duration::from_secs(2);
 /// The time allowed for the reader threads to deliver a dead process's remaining output.
 const DRAIN_TIME: Duration = Duration::from_millis(500);
 
-/// The maximum number of times to check whether a guard has killed its program and exited. Including the
-/// pauses between checks, this takes at most ten seconds.
+/// The maximum number of times to check whether a guard (the supervising process) has killed its program and exited.
+/// Including the pauses between checks, this takes at most ten seconds.
 const POLLS: u32 = 2000;
-/// The pause between checks for a guard.
+/// The pause between two checks on a guard (the supervising process).
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// The environment variables that every process inherits if they are set. They specify the locations of
@@ -54,7 +54,7 @@ const ENVIRONMENT: &[&str] = &[
 /// and removes the folder.
 #[derive(Debug)]
 pub(super) struct LineProcess {
-    /// The process itself, or its guard if it has one.
+    /// The player's process, or its guard (the supervising process) if it has one.
     child: Child,
     is_guarded: bool,
     /// The channel for sending lines, or `None` once the input is closed.
@@ -86,12 +86,12 @@ pub(super) enum NoLine {
 }
 
 impl LineProcess {
-    /// Starts a program. If a guard command is given, the program runs behind a guard. File names in the
-    /// command are made absolute, because the process runs in a different folder.
+    /// Starts a player's program. If `guard` is not empty, it is a command that runs the program and stops it when
+    /// `arcade` ends. File names in the command are made absolute, because the process runs in a different folder.
     ///
     /// # Errors
-    /// Returns an error if the process cannot be started. The error kind `Interrupted` means that this
-    /// program is about to exit.
+    /// Returns an error if the process cannot be started. The error kind `Interrupted` means that `arcade` itself is
+    /// about to exit.
     pub(super) fn start(
         words: &[String],
         inherited: &[String],

@@ -1,8 +1,8 @@
 //! External agents: processes that communicate through lines of JSON (`docs/how-to/agents.md`).
 //!
-//! An agent's process receives only facts that a player may know. It does not receive the level source, the
-//! forward model, the seed, or the path to a witness. The process runs in its own empty folder, with a
-//! reduced environment.
+//! An agent's process receives only facts that a player may know. It does not receive the level source, the forward
+//! model, the seed, or the path to a witness (a recorded winning episode). The process runs in its own empty folder,
+//! with a reduced environment.
 
 mod child;
 #[cfg(unix)]
@@ -64,9 +64,9 @@ pub struct ProcessConfig {
     pub timeout: Duration,
     /// The names of environment variables that the process inherits in addition to the default variables.
     pub inherited: Vec<String>,
-    /// The command for a guard: a program that calls [`guard`](guard()) with its remaining arguments. The
-    /// arguments are the folder, `--`, and the words of the player's command. If the guard command is empty,
-    /// the process is started directly, and outlives this program if this program is killed.
+    /// The command for a guard, which supervises the player: a program that calls [`guard`](guard()) with its remaining
+    /// arguments. The arguments are the folder, `--`, and the words of the player's command. If the guard command is
+    /// empty, the player's process is started directly, and survives if the calling program is killed.
     pub guard: Vec<OsString>,
 }
 

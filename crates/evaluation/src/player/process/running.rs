@@ -1,4 +1,4 @@
-//! A registry of the running processes of all players, so that this program can kill them before it exits.
+//! A registry of the running processes of all players, so that `arcade` can kill them before it exits.
 
 use rustix::process::{Pid, Signal, kill_process, kill_process_group};
 use std::collections::BTreeMap;
@@ -18,8 +18,9 @@ const PAUSE: Duration = Duration::from_millis(5);
 pub(super) struct Running {
     /// `true` once no more players may start.
     pub(super) is_over: bool,
-    /// The running players by process ID, each with `true` if it has a guard. A player is inserted while it
-    /// starts. It is removed before it is reaped, because afterwards a different process may reuse its ID.
+    /// The running players by process ID, each with `true` if it has a guard (a supervising process). A player is
+    /// inserted while it starts. It is removed before it is reaped, because afterwards a different process may reuse
+    /// its ID.
     pub(super) players: BTreeMap<u32, bool>,
 }
 
@@ -28,7 +29,7 @@ pub(super) fn running() -> MutexGuard<'static, Running> {
     RUNNING.lock().expect("nothing panics while it holds this lock")
 }
 
-/// Kills all of this program's players and prevents new ones from starting, so that the program can exit.
+/// Kills the processes of all players and prevents new ones from starting, so that `arcade` can exit.
 ///
 /// Episodes in progress are left in the same state as after an interruption. The function returns when all
 /// players have exited, or after at most three seconds.
@@ -37,7 +38,7 @@ pub fn end_all() {
     all.is_over = true;
     for (&id, &is_guarded) in &all.players {
         let Some(id) = Pid::from_raw(id.cast_signed()) else { continue };
-        // A guard needs a moment to end its program.
+        // A guard (supervising process) needs a moment to end its program.
         let _ = match is_guarded {
             true => kill_process(id, Signal::TERM),
             false => kill_process_group(id, Signal::KILL),

@@ -177,7 +177,8 @@ impl Reflex<'_> {
         seen.find(|(distance, _)| *distance > 1).map(|(_, action)| action)
     }
 
-    /// Returns the distance to the nearest target in a given direction.
+    /// Returns the distance to the nearest target in a given direction; `None` if no target is in sight within `reach`
+    /// cells.
     fn target(&self, way: (isize, isize), reach: usize) -> Option<usize> {
         let mut cell = self.you.cell;
         for distance in 1..=reach {
@@ -196,8 +197,8 @@ impl Reflex<'_> {
         None
     }
 
-    /// Returns the first step to the best reachable target. Among equally good targets, the nearest is
-    /// chosen.
+    /// Returns the first step to the best reachable target; `None` if no target is reachable. Among equally good
+    /// targets, the nearest is chosen.
     fn go(&self, choices: &mut Sampler) -> Option<Action> {
         let enter = |cell: usize, way| self.entry_cost(cell, way);
         let routes = Routes::from(self.board, self.you.cell, &self.shown.actions, enter, |cell| {

@@ -80,7 +80,7 @@ fn of_player(study: &Study, player: usize) -> Vec<EndingRow> {
     rows.into_values().sorted_by_key(|row| Reverse(row.episodes)).collect()
 }
 
-/// Returns the smallest distance, or the first one among equals.
+/// Returns the smallest distance, or the first one among equals; `None` without distances.
 pub(crate) fn nearest<'a>(distances: impl Iterator<Item = &'a GoalDistance>) -> Option<&'a GoalDistance> {
     distances.min_by(|one, other| one.fraction().total_cmp(&other.fraction()))
 }

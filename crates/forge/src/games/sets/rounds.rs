@@ -30,7 +30,7 @@ pub(crate) struct Turn {
     pub(crate) drawn: KernelGenome,
 }
 
-/// The kernels (hand-written game designs), in turn order.
+/// The kernels (hand-written game designs), in the order in which they take turns, each with its results so far.
 struct Ledger(Vec<Fared>);
 
 impl Ledger {

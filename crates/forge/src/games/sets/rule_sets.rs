@@ -36,14 +36,15 @@ pub(crate) struct RuleSet {
     form: GameForm,
 }
 
-/// Sets of rules, in turn order. Each kernel (hand-written design) has one set before any kernel has a second.
+/// Sets of rules. Kernels (hand-written designs) take turns, so each kernel has one set before any kernel has a second.
 ///
 /// A position always has the same set, regardless of the number of positions. Only the first set of each kernel is
 /// drawn immediately. Further sets are drawn on demand, because most releases are small.
 #[derive(Clone, Debug)]
 pub struct RuleSets {
     draws: Draws,
-    /// The kernels (hand-written designs) in turn order. The sets are still unnamed.
+    /// The kernels (hand-written designs), in the order in which they take turns, each with its rule sets before names
+    /// are assigned.
     kernels: Vec<(&'static str, OnceLock<Vec<RuleSet>>)>,
     /// The first rule set of each kernel (hand-written design).
     opening: Vec<RuleSet>,

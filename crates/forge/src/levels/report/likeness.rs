@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use report::{Mean, Section, Share};
 use std::collections::BTreeSet;
 
-/// The maximum distance between near-duplicates.
+/// The maximum distance between levels that count as near-duplicates, from 0 (equal) to 1.
 pub(crate) const NEAR: f64 = 0.05;
 
 /// The distances between the levels in a set.
 pub(super) struct Distances {
-    /// For each level, the mean distance to the other levels, if there are any.
+    /// For each level, its mean distance to the other levels, if there are any.
     means: Vec<f64>,
     /// For each level, the distance to the nearest other level.
     pub(super) nearest: Vec<Option<f64>>,

@@ -32,7 +32,7 @@ pub struct LevelRow {
     pub shortest: Option<u64>,
     /// The play and layout measures, by name.
     pub measures: BTreeMap<String, f64>,
-    /// The distance to the nearest level of the set.
+    /// The distance to the nearest other level of the set, if there is one, from 0 (equal) to 1.
     pub nearest: Option<f64>,
 }
 

@@ -163,7 +163,7 @@ fn candidates<'a>(results: &Results<'a>) -> Vec<(String, Vec<Candidate<'a>>)> {
     order.map(of_player).collect()
 }
 
-/// Finds the evaluation and the task for an episode in a study.
+/// Finds the evaluation and the task for an episode in a study; `None` if the evaluations do not contain the episode.
 fn found<'a>(evaluations: &'a [Evaluation], episode: &StudyEpisode) -> Option<Candidate<'a>> {
     let EpisodeMetrics { folder, game, level, run, ending, .. } = &episode.metrics;
     let evaluation = evaluations.get((*folder)?)?;

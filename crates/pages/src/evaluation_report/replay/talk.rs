@@ -31,7 +31,8 @@ pub(super) struct Answer {
     pub(super) cost: String,
 }
 
-/// Returns the messages exchanged at each decision, in order. Decisions without messages have an empty entry.
+/// Returns the messages exchanged at each decision, in chronological order. Decisions without messages have an empty
+/// entry.
 ///
 /// If a conversation continues from an earlier level, the log repeats the texts of that level. The repetitions are
 /// omitted here. The question after the last decision is assigned to that decision.

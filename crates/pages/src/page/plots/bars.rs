@@ -23,7 +23,7 @@ pub(crate) struct BarRow {
     pub(crate) amount: String,
 }
 
-/// Draws the rows in order, scaled to the largest amount. `label` describes the plot, and `key` lists the
+/// Draws the rows from top to bottom, scaled to the largest amount. `label` describes the plot, and `key` lists the
 /// names of the parts. Cost: O(rows).
 pub(crate) fn bars(label: &str, key: &[&str], rows: &[BarRow]) -> String {
     let mut canvas = Canvas::new("bars", LEFT + PLANE + RIGHT, HEAD + rows.len() as f64 * LINE + 4.0, label);

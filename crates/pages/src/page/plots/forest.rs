@@ -24,7 +24,7 @@ pub(crate) struct ForestRow {
     pub(crate) reference: bool,
 }
 
-/// Draws the rows in order, with a vertical line at one half. `label` describes the plot. Cost: O(rows).
+/// Draws the rows from top to bottom, with a vertical line at one half. `label` describes the plot. Cost: O(rows).
 pub(crate) fn forest(label: &str, rows: &[ForestRow]) -> String {
     let foot = rows.len() as f64 * LINE + 4.0;
     let mut canvas = Canvas::new("forest", LEFT + PLANE + RIGHT, foot + FOOT, label);

@@ -171,7 +171,7 @@ fn name_lines(canvas: &mut Canvas, plot: &MonthPlot<'_>, x: f64, up: &dyn Fn(f64
     }
 }
 
-/// Returns the distance between axis labels, chosen so that an axis has about five to ten labels.
+/// Returns the distance between axis labels, in units of the axis, chosen so that an axis has about five to ten labels.
 fn tick(range: f64) -> f64 {
     [0.5, 1.0, 2.0, 5.0, 10.0].into_iter().find(|step| range / step <= 8.0).unwrap_or(20.0)
 }

@@ -40,7 +40,7 @@ impl HeldPart {
         }
     }
 
-    /// Returns the part whose list is at the given path.
+    /// Returns the part whose list is at the given path; `None` for any other path.
     pub(crate) fn of_list(path: &str) -> Option<HeldPart> {
         HeldPart::ALL.into_iter().find(|part| part.list() == path)
     }

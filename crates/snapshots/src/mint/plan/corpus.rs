@@ -63,7 +63,7 @@ pub struct Corpus {
 }
 
 impl Corpus {
-    /// Returns the game with the given name.
+    /// Returns the game with the given name; `None` if the corpus has no such game.
     pub fn find(&self, name: &str) -> Option<&CorpusGame> {
         self.games.iter().find(|game| game.name == name)
     }

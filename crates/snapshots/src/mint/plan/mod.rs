@@ -160,9 +160,9 @@ impl<'a> Plan<'a> {
         match self.recipe.commitment {
             // The canary is derived from the recipe's digest, so that distinct recipes have distinct
             // canaries.
-            None => canary(
-                &canonical_digest(self.recipe).expect("a checked recipe has no numbers that JSON lacks"),
-            ),
+            None => {
+                canary(&canonical_digest(self.recipe).expect("a checked recipe contains only finite numbers"))
+            }
             Some(commitment) => canary(&commitment),
         }
     }

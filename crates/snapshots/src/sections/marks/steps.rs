@@ -39,7 +39,7 @@ pub struct Fall<T> {
 }
 
 impl Falls {
-    /// Computes the decreases from games' reference results.
+    /// Computes the decreases in win rates from the games' reference results.
     pub(super) fn of(asked: &MarksPart, games: &[GameMarks]) -> Falls {
         let has = |tier: &Tier| games.iter().flat_map(|game| &game.levels).any(|level| level.tier == *tier);
         let tiers: Vec<Tier> = Tier::ALL.into_iter().filter(has).collect();
@@ -76,7 +76,7 @@ impl Falls {
 }
 
 /// Returns the mean fraction of episodes won over the selected levels and commitments (numbers of actions per decision)
-/// in a game.
+/// in a game; `None` if the selection is empty.
 fn rate(
     asked: &MarksPart,
     game: &GameMarks,
@@ -96,8 +96,8 @@ fn rate(
     (of > 0).then(|| won as f64 / of as f64)
 }
 
-/// Computes a decrease; `None` for fewer than two games, because a single game does not show the variance between
-/// games.
+/// Computes a decrease in win rates; `None` for fewer than two games, because a single game does not show the variance
+/// between games.
 fn fall<T>(
     player: Option<String>,
     (from, to): (T, T),

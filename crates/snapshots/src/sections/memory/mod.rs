@@ -62,7 +62,7 @@ pub(crate) fn publishes_sibling(root: Seed, one: Digest, other: Digest) -> bool 
 
 /// Returns `true` if the coin toss between a level's two wins selects the first win for publication.
 pub(crate) fn publishes_win(root: Seed, one: &Episode, other: &Episode) -> bool {
-    let digest = |episode| canonical_digest(episode).expect("an episode has no numbers that JSON lacks");
+    let digest = |episode| canonical_digest(episode).expect("an episode contains only finite numbers");
     publishes(root, "wins", digest(one), digest(other))
 }
 

@@ -67,7 +67,7 @@ impl SecretGame {
 }
 
 /// Returns a sentence about the problem with a level's pair of wins (published and withheld), without replaying the
-/// withheld win.
+/// withheld win; `None` if there is no problem.
 pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Option<Seed>) -> Option<String> {
     let published = published?;
     if !differ(&published.actions, &second.actions) {
@@ -78,7 +78,8 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
         .then(|| "the coin selects this win for publication, so the other win should be withheld".to_owned())
 }
 
-/// Returns a sentence about the problem with a game's pairs in a job's result. `root` is the root seed of the plan.
+/// Returns a sentence about the problem with a game's pairs in a job's result; `None` if there is no problem. `root` is
+/// the root seed of the plan.
 pub(super) fn shape_problem(frozen: &FrozenGame, game: &Game, root: Seed) -> Option<String> {
     let FrozenGame { levels, witnesses, sibling, seconds, .. } = frozen;
     if !seconds.is_empty() && seconds.len() != levels.len() {

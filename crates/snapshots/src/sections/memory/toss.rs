@@ -112,13 +112,13 @@ pub(crate) fn differ(one: &[Action], other: &[Action]) -> bool {
 /// A win search on a level, with a given seed.
 type Search = fn(&Analysis, &Level, &PortfolioConfig, &SeedPath) -> Option<Episode>;
 
-/// Searches for a win with planners.
+/// Searches for a win with planners; `None` if they find no win.
 fn planned(analysis: &Analysis, level: &Level, config: &PortfolioConfig, seed: &SeedPath) -> Option<Episode> {
     let Solution::Won { episode, .. } = solve(analysis, level, config, seed).solution else { return None };
     Some(*episode)
 }
 
-/// Searches systematically for a win after a detour at the start of a deterministic level.
+/// Searches systematically for a win after a detour at the start of a deterministic level; `None` if no win is found.
 fn after_a_detour(
     analysis: &Analysis,
     level: &Level,

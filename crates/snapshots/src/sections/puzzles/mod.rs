@@ -14,7 +14,7 @@ use generators::games::{LockRules, PushRules, YardRules};
 use serde::{Deserialize, Serialize};
 use validators::novelty::GameForm;
 
-/// The minimum side length of a puzzle board.
+/// The minimum side length of a puzzle board, in cells.
 const LEAST_SIDE: usize = 8;
 
 /// The properties in which the kinds of puzzles differ.

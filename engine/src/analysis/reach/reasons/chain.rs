@@ -1,9 +1,9 @@
 //! The reasons why a termination can never hold in a level, as a chain of requirements that ends with the
 //! first impossible one.
 //!
-//! Every link is proven by the over-approximation of [`Reach`](crate::analysis::reach::Reach): a requirement
-//! counts as missing only if it is missing in every cell that sprites can reach. The links are not
-//! necessarily complete, because further requirements may be missing as well.
+//! Every requirement in the chain is proven impossible by the over-approximation of
+//! [`Reach`](crate::analysis::reach::Reach): a requirement counts as missing only if it is missing in every cell that
+//! sprites can reach. The chain is not necessarily complete, because further requirements may be missing as well.
 
 use super::cause::Cause;
 use crate::analysis::Analysis;

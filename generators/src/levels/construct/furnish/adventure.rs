@@ -197,8 +197,8 @@ impl Builder<'_> {
         self.apart(cell, hunted) < self.min_distance(stype).max(4)
     }
 
-    /// Returns the weight of a cell for a mover. The mover needs room to move, and must not head straight for the
-    /// avatar.
+    /// Returns the weight of a cell for a moving sprite. The sprite needs room to move, and must not head straight for
+    /// the avatar.
     fn weigh_mover(&self, cell: usize, stype: SpriteType, share: u32) -> u32 {
         let others = self.apart_from(cell, Role::Enemy).min(6) as u32;
         let spread = 1 + others + share / 20;
@@ -207,7 +207,7 @@ impl Builder<'_> {
         if room < 2 || self.aims_at_start(cell, way) || self.aims_at_start(cell, back(way)) {
             return 0;
         }
-        // A row or column contains at most one mover.
+        // A row or column contains at most one moving sprite.
         let lane = self.log.iter().any(|&(other, kind)| {
             let grid = self.board.grid;
             let same = if way.0 != 0 { grid.y(other) == grid.y(cell) } else { grid.x(other) == grid.x(cell) };

@@ -232,7 +232,7 @@ impl Pulls {
     }
 }
 
-/// Adds the steps of a walk.
+/// Adds the steps of a shortest walk from `from` to `to` to `ways`; `None` if there is no such walk.
 fn walk(now: &Pulls, from: usize, to: usize, ways: &mut Vec<(i32, i32)>) -> Option<()> {
     let way = now.grid.way(from, to, |cell| now.stands(cell))?;
     ways.extend(way.windows(2).map(|pair| now.grid.offset(pair[0], pair[1])));

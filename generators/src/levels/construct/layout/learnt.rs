@@ -12,8 +12,8 @@ use std::collections::{BTreeMap, VecDeque};
 const SIDE: usize = 3;
 /// The number of cells in a window.
 const CELLS: usize = SIDE * SIDE;
-/// The maximum number of different windows. The most frequent windows are retained. Time and memory grow with the
-/// square of this number.
+/// The maximum number of distinct windows. The most frequent windows are retained. Time and memory grow with the square
+/// of this number.
 const MOST: usize = 320;
 /// The maximum number of boards to attempt.
 const RESTARTS: usize = 2;
@@ -57,7 +57,7 @@ impl Patterns {
         }
     }
 
-    /// Returns `true` if there is a structure to learn: several different windows with inner walls.
+    /// Returns `true` if there is a structure to learn: several distinct windows with inner walls.
     pub(crate) fn has_structure(&self) -> bool {
         self.seen.keys().filter(|window| window.contains(&1)).count() >= 8
     }

@@ -12,7 +12,7 @@ struct Room {
     height: usize,
 }
 
-/// The minimum side length of a room.
+/// The minimum side length of a room, in cells.
 const SHORTEST: usize = 2;
 
 /// Divides the area inside the border until the rooms are small. `loops` is the probability that a wall gets a second

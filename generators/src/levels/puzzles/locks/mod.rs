@@ -36,7 +36,7 @@ const BATCH: usize = 8;
 /// The number of inner cells on a board of typical size, for which [`furniture`] returns the default numbers of items.
 const USUAL: f64 = 64.0;
 
-/// A lock puzzle in the characters of [`LockRules::game`], with a winning sequence of actions.
+/// A lock puzzle with a winning sequence of actions. Its text uses the level characters of [`LockRules::game`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LockLevel {
     /// The level, as text.

@@ -14,7 +14,7 @@ pub(crate) fn bit(cell: usize) -> Cells {
     1 << cell
 }
 
-/// Returns a set's cells, in order.
+/// Returns a set's cells, in ascending order.
 pub(crate) fn each(mut cells: Cells) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let cell = (cells != 0).then(|| cells.trailing_zeros() as usize)?;

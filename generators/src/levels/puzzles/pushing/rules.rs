@@ -132,7 +132,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
                     }
                     crosses[a][b] = !analysis.blocks(target, kind);
                     if crosses[a][b] && !walkable[b] {
-                        return Err("sprites lie where the avatar cannot follow");
+                        return Err("pushed sprites can enter cells that the avatar cannot enter");
                     }
                 }
             }
@@ -142,7 +142,7 @@ fn find(analysis: &Analysis, palette: &Palette) -> Result<Rules, &'static str> {
     }
 }
 
-/// Finds a placed type that stops only pushed objects.
+/// Finds a placed type that stops only pushed objects; `None` if there is no such type.
 fn find_sill(
     analysis: &Analysis,
     palette: &Palette,

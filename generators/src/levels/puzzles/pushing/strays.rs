@@ -37,7 +37,7 @@ base::with_defaults! {
     }
 }
 
-/// The minimum side length of boards.
+/// The minimum side length of boards, in cells.
 const LEAST_SIDE: usize = 7;
 /// The fraction of the inner cells that are walls.
 const WALLS: f64 = 0.08;
@@ -56,7 +56,7 @@ const PLAYS: usize = 40;
 /// The number of episodes played by the simulated player per measured commitment.
 const MEASURED: usize = 200;
 
-/// A pushing puzzle among wandering deadly sprites, in the characters of [`PushRules::game`].
+/// A pushing puzzle among wandering deadly sprites. Its text uses the level characters of [`PushRules::game`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrayLevel {
     /// The level, as text.

@@ -35,7 +35,8 @@ fn rules_are_recognised() {
     assert_eq!(rules_of(&jars()).destinations, [Destination::Partner; 2]);
 }
 
-/// Returns the number of pushes from a position to the nearest solved position, by forward search.
+/// Returns the number of pushes from a position to the nearest solved position, by forward search; `None` if no solved
+/// position is reachable.
 fn forward(pushing: &Pushing<'_>, start: Position) -> Option<usize> {
     let key = |position: &Position| (position.things, position.targets, position.avatar);
     let solved = pushing.solved();

@@ -6,7 +6,7 @@ use crate::levels::puzzles::lookout::{ACTIONS, Moves};
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, SpriteType, State};
 
-/// The pushes of a win, in order. A state consists of the number of pushes so far and the avatar's cell.
+/// The pushes of a win, in the order of play. A state consists of the number of pushes so far and the avatar's cell.
 pub(crate) struct Trail {
     grid: Grid,
     start: usize,

@@ -40,8 +40,8 @@ base::with_defaults! {
     }
 }
 
-/// The minimum side length of a board, including the row of the fuse (the time limit). Smaller boards have no room for
-/// tracks.
+/// The minimum side length of a board, in cells, including the row of the fuse (the time limit). Smaller boards have no
+/// room for tracks.
 const LEAST_SIDE: usize = 6;
 /// The number of inner cells on a board of typical size, which gets the configured number of carts.
 const USUAL: f64 = 80.0;
@@ -62,8 +62,8 @@ const FURNISHED: usize = 4;
 /// The maximum length of a fastest win in ticks, as a multiple of the number of steps that it would take without carts.
 const DELAY: f64 = 1.5;
 
-/// A yard (a puzzle about carrying parcels) in the characters of [`YardRules::game`], with a winning sequence of
-/// actions.
+/// A yard (a puzzle about carrying parcels) with a winning sequence of actions. Its text uses the level characters of
+/// [`YardRules::game`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct YardLevel {
     /// The level, as text.

@@ -16,7 +16,7 @@ pub(super) struct Timetable {
     pub(super) visits: Vec<u32>,
 }
 
-/// The value for an empty load.
+/// The value of the load (the carried parcel) if nothing is carried.
 const EMPTY: usize = 0;
 /// The minimum number of distinct cart states (cell and direction) at the end, as a fraction of the number of carts.
 const APART: f64 = 0.75;

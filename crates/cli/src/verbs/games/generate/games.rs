@@ -293,7 +293,7 @@ fn document(args: &Args, set: &GameSet) -> serde_json::Value {
     })
 }
 
-/// Returns the human-readable answer.
+/// Returns the summary of the generated games that the terminal shows.
 fn summary(args: &Args, set: &GameSet, seconds: f64) -> String {
     let mut text = String::new();
     let width = set.games.iter().map(|game| game.card.title.chars().count()).max().unwrap_or(0);

@@ -266,7 +266,7 @@ fn level((number, made): (usize, &MadeLevel)) -> serde_json::Value {
     })
 }
 
-/// Returns the human-readable answer.
+/// Returns the summary of the generated levels that the terminal shows.
 fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
     let mut text = String::new();
     for (number, made) in set.levels.iter().enumerate() {

@@ -49,7 +49,7 @@ pub(crate) struct Args {
     /// Games to judge blindly, in pairs: a folder of games, a release, or `corpus`. Give this flag at least twice
     #[arg(long, value_name = "GAMES", conflicts_with = "place")]
     judge: Vec<String>,
-    /// Text to derive the pairs and their sides from
+    /// Text to derive the pairs, and the side of each game, from
     #[arg(long, value_name = "TEXT", default_value = "judge", requires = "judge")]
     seed: String,
     /// The number of pairs

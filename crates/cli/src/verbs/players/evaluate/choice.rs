@@ -31,7 +31,7 @@ pub(super) struct ChoiceArgs {
     /// games first; --runs is the maximum number of episodes per level
     #[arg(long, value_name = "FILE", help_heading = "Choice of levels")]
     scale: Option<PathBuf>,
-    /// Choose as many levels as it takes to reach this standard error of the ability, in logits
+    /// Choose enough levels to reach this standard error of the ability, in logits
     #[arg(
         long,
         value_name = "LOGITS",
@@ -41,8 +41,8 @@ pub(super) struct ChoiceArgs {
         value_parser = number(TARGETS)
     )]
     target_error: Option<f64>,
-    /// Choose as many levels as it takes to detect this difference in logits between two players on the same levels in
-    /// 80 of 100 evaluations
+    /// Choose enough levels to detect an ability difference of this size, in logits, between two players on the same
+    /// levels. The difference is detected in 80 of 100 evaluations
     #[arg(
         long,
         value_name = "LOGITS",

@@ -22,9 +22,9 @@ use std::path::{Path, PathBuf};
 
 /// Measures the difficulty of the levels of a release on one scale for all months (see `arcade docs scale`).
 ///
-/// Examinees that never change play every level, with randomness that no mint uses. The command writes to DIR:
-/// scale.json, and plays/ with one results folder per examinee. With --scale, the release is added to an earlier scale,
-/// whose examinees play.
+/// Examinees (reference players that never change) play every level, with random seeds that no mint uses. The command
+/// writes to DIR: scale.json, and plays/ with one results folder per examinee. With --scale, the release is added to an
+/// earlier scale, whose examinees play.
 ///
 /// Exit status 0: calibrated. 2: malformed input. 3: the disk failed; --resume continues. 128 + signal: interrupted;
 /// --resume continues.
@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// Number of parametric bootstrap replicates, for the interval of the correlation and the bias of the spreads
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u64).range(..=10_000))]
     replicates: u64,
-    /// Text to derive the episodes' randomness from; different text gives new episodes
+    /// Text to derive the episodes' randomness from; another text gives new episodes
     #[arg(long, value_name = "TEXT", default_value = "calibrate")]
     seed: String,
     /// The name of the release on the scale [default: the name of its folder]
@@ -255,7 +255,7 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
         if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
             bail!(
                 "{name}: it did not play the first release of the scale, so it isn't an anchor (a reader that \
-                 links months); place it with `arcade study scale`, and omit it from --readers"
+                 plays every release); place it with `arcade study scale`, and omit it from --readers"
             );
         }
     }

@@ -22,10 +22,10 @@ use std::path::PathBuf;
 /// In a sealed release whose recipe has [memory], coin tosses decided which of two renamings of each game, and which of
 /// two wins of each level, was published. The other one is withheld. A player that has never seen the published one
 /// cannot tell the two apart, so the tests are exact. Does the player win more often on the published games than on
-/// their siblings? Do its episodes begin like the published wins rather than the withheld ones? At most 1% of clean
-/// models are flagged. The tests are valid for models trained before the full reveal (see `arcade docs memory`). An
-/// open release, such as `starter`, makes no such choices and cannot be tested. Without RESULTS, prints what the tests
-/// could detect if every level were played once.
+/// their siblings (the withheld renamings)? Do its episodes begin like the published wins rather than the withheld
+/// ones? At most 1% of clean models are flagged. The tests are valid for models trained before the full reveal (see
+/// `arcade docs memory`). An open release, such as `starter`, makes no such choices and cannot be tested. Without
+/// RESULTS, prints what the tests could detect if every level were played once.
 ///
 /// Exit status 0: consistent with not having seen the release, or too few pairs to tell. 1: a player has seen part of
 /// the release. 2: malformed input, or nothing could be tested.
@@ -60,8 +60,8 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         console.document(&json!({ "release": name, "root": root, "alpha": ALPHA, "power": power }))?;
         console.say(has);
         console.say(format_args!(
-            "power of the tests if every level is played once on each side, at a significance level of \
-             {ALPHA} for both tests:"
+            "power of the tests if every level is played once in its published and once in its withheld form, \
+             at a significance level of {ALPHA} for both tests together:"
         ));
         say_power(&power, console);
         return Ok(true);

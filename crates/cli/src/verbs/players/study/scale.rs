@@ -13,9 +13,9 @@ use std::path::PathBuf;
 
 /// Places players on a scale: their ability on each release, with a breakdown of the error.
 ///
-/// Ability and difficulty are in logits above the mean difficulty of the scale's first release. The error has three parts: the
-/// number of episodes (sampling), games that suit the player (mismatch), and the link between the months (see
-/// `arcade docs scale`).
+/// Ability and difficulty are in logits above the mean difficulty of the scale's first release. The error has three
+/// parts (see `arcade docs scale`). Sampling depends on the number of episodes. Mismatch is due to games that suit the
+/// player well or badly. Link is the error of the release's position relative to the first release.
 ///
 /// Exit status 0: all players are placed. 1: a player cannot be placed; the message says what is needed. 2: malformed
 /// input.
@@ -86,7 +86,7 @@ fn words(month: &MonthAbility) -> String {
             .map_or("is not known".to_owned(), |low| format!("may be as low as {low:.2}, below 0.5"));
         let anchors = count(*anchors as usize, "anchor");
         return format!(
-            "not placed ({played}): the release is linked by planners and {anchors}, and the correlation \
+            "not placed ({played}): only planners and {anchors} played this release, and the correlation \
              between the difficulty for planners and for readers {low}; calibrate the release with at \
              least two anchors, which are readers that also played the first release (--readers)"
         );

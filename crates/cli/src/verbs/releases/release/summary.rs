@@ -91,7 +91,7 @@ pub(super) fn in_short(minted: &Minted, out: &Path) -> String {
     format!("{name}: {games}, {levels}; root {root} in {}", out.in_message())
 }
 
-/// Returns one of the new levels as text, as an example.
+/// Returns one of the new levels as text, as an example; `None` if there is no new level.
 fn example_board(minted: &Minted, out: &Path) -> Option<String> {
     let new = |card: &&Card| matches!(card.origin, Origin::Generated { .. });
     let card = minted.cards.iter().find(new).or_else(|| minted.cards.first())?;

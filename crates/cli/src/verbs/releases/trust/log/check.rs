@@ -187,7 +187,7 @@ fn placed(place: &Path, manifest: &Manifest, entries: &[Entry]) -> Option<String
     ))
 }
 
-/// Returns the index of the entry with the root of the named release.
+/// Returns the index of the entry with the root of the named release; `None` if the log has no such entry.
 fn root_of(entries: &[Entry], name: &str) -> Option<usize> {
     entries.iter().position(|entry| matches!(entry, Entry::Root { release, .. } if release == name))
 }
