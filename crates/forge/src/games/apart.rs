@@ -14,7 +14,7 @@ const DRAWS: u64 = 12;
 const PATIENCE: u32 = 6;
 /// The number of attempts at a game after which a different danger and a different ending are requested for the draws.
 /// Some dangers and endings hardly ever pass in combination, so a game must not keep them for long.
-const LONG_PATIENCE: u32 = 12;
+pub(super) const LONG_PATIENCE: u32 = 12;
 /// The number of turns by which the requested parts advance each time. It exceeds the number of games in a month.
 const STRIDE: usize = 31;
 

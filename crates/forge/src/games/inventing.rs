@@ -1,6 +1,6 @@
 //! Generation of invented games by each method.
 
-use super::apart::FarInventions;
+use super::apart::{FarInventions, LONG_PATIENCE};
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
 use super::make::{GameSet, GamesError, Maker};
@@ -17,6 +17,7 @@ use generators::invention::{Census, Invention, Verb};
 use generators::{Axis, MapElites, MapElitesConfig, Variation};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::ops::Range;
 use validators::novelty::GameForm;
 
 /// The divisor for the number of quick evaluations in each archive round after the first. Another round follows if the
@@ -26,6 +27,8 @@ const MENDING: usize = 3;
 const ROUND: usize = 4;
 /// The maximum number of attempts per requested game.
 const ROUNDS: u32 = 4;
+/// The number of rounds after which an archive is replaced if no elite was accepted.
+const ARCHIVE_ROUNDS: u32 = 6;
 /// The maximum number of elites to judge per archive round.
 const ELITES: usize = 3;
 
@@ -99,7 +102,7 @@ impl Maker<'_> {
         let variation = |attempt| FarInventions::new(census, known, (number, attempt), seed);
         match self.order.method {
             Method::Constructive | Method::Search => self.invent_in_attempts(variation, number),
-            Method::Evolutionary => self.invent_from_archive(&variation(0), number),
+            Method::Evolutionary => self.invent_from_archives(variation, number),
         }
     }
 
@@ -124,31 +127,56 @@ impl Maker<'_> {
         attempted
     }
 
-    /// Fills an archive with diverse inventions, and judges elites, spread far apart in the archive, until one is
-    /// accepted. Each attempt is a round. The first round fills the archive, and later rounds refill the cells that the
-    /// judges rejected.
-    fn invent_from_archive(&self, variation: &FarInventions<'_>, number: u32) -> Attempted {
-        let GameEffort { attempts, looks, .. } = self.order.effort;
-        let (seed, looks) = (self.seed_of(number), looks as usize);
+    /// Fills archives one after the other, and judges their elites, until one is accepted. Each attempt is a round in an
+    /// archive. Different parts are requested for each archive.
+    fn invent_from_archives<'a>(
+        &self,
+        variation: impl Fn(u32) -> FarInventions<'a>,
+        number: u32,
+    ) -> Attempted {
+        let mut attempted = Attempted::default();
+        let attempts = self.order.effort.attempts;
+        for (archive, first) in (0..attempts).step_by(ARCHIVE_ROUNDS as usize).enumerate() {
+            let rounds = first..attempts.min(first + ARCHIVE_ROUNDS);
+            let seed = self.seed_of(number).child("archive", archive as u64);
+            let variation = variation(archive as u32 * LONG_PATIENCE);
+            attempted.made = self.invent_from_archive(&variation, &seed, rounds, &mut attempted.tally);
+            if attempted.made.is_some() {
+                break;
+            }
+        }
+        attempted
+    }
+
+    /// Fills an archive with diverse inventions, and judges elites that are spread far apart in it, until one is
+    /// accepted. The first round fills the archive, and later rounds refill the cells that the judges rejected.
+    fn invent_from_archive(
+        &self,
+        variation: &FarInventions<'_>,
+        seed: &SeedPath,
+        rounds: Range<u32>,
+        tally: &mut Tally,
+    ) -> Option<MadeGame> {
+        let looks = self.order.effort.looks as usize;
         let config = MapElitesConfig { initial: (looks / 2).max(1), ..MapElitesConfig::default() };
-        let archive = seed.seed().child("archive", 0);
+        let archive = seed.seed().child("elites", 0);
         let mut search = MapElites::new(variation, Invention::key, axes(), config, archive);
-        let (mut attempted, mut shown) = (Attempted::default(), BTreeSet::new());
-        for round in 0..attempts {
-            let looks = if round == 0 { looks } else { looks.div_ceil(MENDING) };
+        let mut shown = BTreeSet::new();
+        for round in rounds.clone() {
+            let looks = if round == rounds.start { looks } else { looks.div_ceil(MENDING) };
             let effort = (looks, seed.seed().child("look", 0));
-            self.search(&mut search, effort, &mut attempted.tally, |_, _| {});
+            self.search(&mut search, effort, tally, |_, _| {});
             let picked = spread(search.archive(), ELITES, &[], |_, _| false, &mut shown, Invention::key);
             for (cell, elite) in picked {
                 let judges = seed.child("judges", 0).child(&elite.key().to_string(), 0);
-                attempted.made = self.gate.judge(&elite, round, &judges, &|_| None, &mut attempted.tally);
-                if attempted.made.is_some() {
-                    return attempted;
+                let made = self.gate.judge(&elite, round, &judges, &|_| None, tally);
+                if made.is_some() {
+                    return made;
                 }
                 search.demote(cell, REFUSED);
             }
         }
-        attempted
+        None
     }
 }
 
