@@ -102,7 +102,8 @@ impl TypeInfo {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
 
-    /// Returns the class and the update-order position of sprites whose updates have an effect.
+    /// Returns the type's class and its position in the update order; `None` if updates of its sprites never have an
+    /// effect.
     pub(crate) fn updated(&self) -> Option<(SpriteClass, i32)> {
         let class = self.class.filter(|_| !self.is_idle())?;
         Some((class, i32::from(self.order?)))

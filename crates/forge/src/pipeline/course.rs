@@ -1,4 +1,4 @@
-//! The stage that finds a level for each position in a game, and the stages after each found level.
+//! The stage that finds a game's levels, one for each position, and the stages that check the levels found so far.
 
 use super::game::Trial;
 use super::level::{Place, leaves_something};

@@ -331,8 +331,9 @@ pub(super) fn by_touch(analysis: &Analysis, avatar: SpriteType, stype: SpriteTyp
     (!terms.is_empty()).then(|| terms.swap_remove(best.unwrap_or(0)))
 }
 
-/// Returns the avatar types that contribute to a win by touching a sprite. Also returns the condition, if it is the
-/// same for all of them.
+/// Returns the avatar types that contribute to a win by touching a sprite of `stype`, and the condition under which the
+/// touch counts. If the touch always counts for some types, only these types are returned. If the conditions differ,
+/// [`Terms::Sometimes`] is returned as the condition. Returns `None` if no avatar type contributes.
 pub(super) fn able(analysis: &Analysis, stype: SpriteType) -> Option<(Vec<SpriteType>, Terms)> {
     let avatars = analysis.avatars().iter().map(|avatar| avatar.stype);
     let found: Vec<(SpriteType, Terms)> =

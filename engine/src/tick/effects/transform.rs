@@ -46,7 +46,8 @@ pub(super) fn all(
     }
 }
 
-/// Transforms the sprite into a random type that is related to a given type in the SpriteSet.
+/// Transforms the sprite into one of `options`, drawn at random: the ancestors and descendants of the rule's `stype` in
+/// the SpriteSet. Without options, nothing happens. If the drawn type has no class, the effect only logs a message.
 pub(super) fn random_child(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
