@@ -82,7 +82,7 @@ impl Plan {
         self.value(usize::MAX) + self.bonus
     }
 
-    /// Returns the plan without its first action.
+    /// Returns the plan without its first action; `None` if the plan has no other action.
     fn rest(&self, discount: f64) -> Option<Plan> {
         let (&first, values) = self.values.split_first()?;
         if values.is_empty() {

@@ -167,7 +167,8 @@ impl Signatures {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
 
-    /// Returns the newest set in the chain of valid sets that follow a trusted set (the anchor).
+    /// Returns the newest set in the chain of valid sets that starts with a trusted set (the anchor). Adds the reason
+    /// why the chain ends to `problems`, if the next set exists but is invalid.
     fn newest(&self, anchor: &KeySet, problems: &mut Vec<String>) -> KeySet {
         let mut newest = anchor.clone();
         // The loop terminates, because each set has a higher number than the previous set, and a separate

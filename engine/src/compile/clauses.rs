@@ -314,7 +314,8 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Returns the parameter with this name. If the name is duplicated, returns the last parameter.
+    /// Returns the parameter with this name; `None` if the line does not contain it. If the name is duplicated, returns
+    /// the last parameter.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

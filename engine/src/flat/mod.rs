@@ -126,7 +126,7 @@ pub(crate) fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
         let value = T::take(from);
         match buffer.get_mut(next - 1) {
             Some(old) => *old = value,
-            // Beyond the end of the base, every entry counts as different.
+            // `put_buffer` writes every entry beyond the end of `base`.
             None => buffer.push(value),
         }
     }

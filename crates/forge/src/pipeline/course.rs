@@ -150,7 +150,7 @@ impl<'a> Begun<'a> {
 }
 
 /// Replaces a first level that leaves no new mechanic for later levels. Tries the next candidates until one leaves such
-/// a mechanic.
+/// a mechanic; `None` if none of them does.
 pub(super) fn another_introduction(
     levels: &Levels<'_>,
     game: &Game,

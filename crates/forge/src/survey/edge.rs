@@ -115,7 +115,7 @@ impl Edge {
     }
 
     /// Computes the advantage like [`Edge::of`], but for the strongest of the held-out players, which no search has
-    /// used.
+    /// used. Returns `None` if no held-out player looks ahead, or if every player on the ladder does.
     pub(crate) fn held_out(
         analysis: &Analysis,
         levels: &[Level],

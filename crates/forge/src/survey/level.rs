@@ -38,7 +38,7 @@ impl SurveyedLevel {
     }
 
     /// Returns a measure by name: `ticks`, `pushes`, `branching`, `mechanics`, `pressure`, `skill`, or a layout
-    /// measure.
+    /// measure; `None` if the level lacks the measure.
     pub(crate) fn measure(&self, name: &str) -> Option<f64> {
         let play = self.measures.as_ref().and_then(|measures| match name {
             "ticks" => Some(measures.ticks as f64),

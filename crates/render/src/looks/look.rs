@@ -177,12 +177,14 @@ impl Looks {
         &self.meanings[stype.index()]
     }
 
-    /// Returns the floor of a composed game, whose levels omit it from cells where it would be hidden.
+    /// Returns the floor of a composed game, whose levels omit it from cells where it would be hidden; `None` for other
+    /// games.
     pub(crate) fn floor(&self) -> Option<SpriteType> {
         self.floor
     }
 
-    /// Returns a sign's direction according to the rules. The sign's sprites may turn during play.
+    /// Returns a sign's direction according to the rules; `None` for types that are not signs. The sign's sprites may
+    /// turn during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }

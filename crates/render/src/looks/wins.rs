@@ -80,7 +80,7 @@ fn wants_few(condition: &Condition) -> bool {
     matches!(condition, Condition::AtMost(..) | Condition::Exactly(_, ..=0))
 }
 
-/// Returns the limit of a sprite count.
+/// Returns the limit in a condition on a number of sprites; `None` for a condition on the tick.
 fn limit(condition: &Condition) -> Option<i32> {
     match condition {
         Condition::AtMost(_, limit) | Condition::AtLeast(_, limit) | Condition::Exactly(_, limit) => {
@@ -255,7 +255,8 @@ fn terms(analysis: &Analysis, encounter: &Encounter, avatar: Side) -> Terms {
     }
 }
 
-/// Returns the condition for a transformation that depends on a number of sprites.
+/// Returns the condition for a transformation that depends on a number of sprites; `None` for any other effect, and for
+/// conditions that legends cannot express.
 fn by_count(analysis: &Analysis, encounter: &Encounter) -> Option<Terms> {
     let game = analysis.game();
     let line = &game.description().interactions[encounter.line];

@@ -225,7 +225,8 @@ impl Analysis {
             })
     }
 
-    /// Returns the termination that would end the game if a tick ended in this state. Cost: O(goals × types).
+    /// Returns the termination that would end the game if a tick ended in this state; `None` if no termination would.
+    /// Cost: O(goals × types).
     pub fn goal_met(&self, state: &State) -> Option<&Goal> {
         let rules = &*self.game.0;
         self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, &state.world))

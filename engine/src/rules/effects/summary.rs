@@ -338,7 +338,8 @@ impl Summary {
         })
     }
 
-    /// Returns the resource that the effect changes or tests. The resource's type need not exist as a sprite.
+    /// Returns the resource that the effect changes or tests; `None` if it changes and tests none. The resource's type
+    /// need not exist as a sprite.
     pub(crate) fn resource(&self) -> Option<SpriteType> {
         let tested = match self.precondition {
             Precondition::Holds(_, resource, _) | Precondition::HoldsAtMost(_, resource, _) => Some(resource),
@@ -351,8 +352,8 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// Returns the type whose sprites can gain speed from a standstill when the effect runs on sprites of
-    /// `one`. Forces act only on sprites with continuous physics.
+    /// Returns the type whose sprites can gain speed from a standstill when the effect runs on sprites of `one`; `None`
+    /// if no sprite can. Forces act only on sprites with continuous physics.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),

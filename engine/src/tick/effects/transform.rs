@@ -92,8 +92,7 @@ pub(super) fn if_count(
     }
 }
 
-/// Turns the sprite into its type's singleton. The previous singleton turns into a sprite of a different
-/// type.
+/// Turns all sprites of exactly `stype` into sprites of `other`, and then the first sprite into a sprite of `stype`.
 pub(super) fn to_singleton(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
