@@ -50,10 +50,11 @@ pub struct Width {
     streams: Streams,
     /// The largest score change in one tick so far, at least 1.
     unit: f64,
-    /// The number of ticks in the episode in which each atom (fact about the state) was present.
+    /// The number of ticks in the episode in which each atom (fact about the state) was present; `None` before the
+    /// first decision.
     #[serde(rename = "been")]
     presence: Option<(Features, Vec<u32>)>,
-    /// The rest of the last plan.
+    /// The rest of the last plan; `None` if nothing is left of it.
     plan: Option<Plan>,
     #[serde(skip)]
     analysis: Option<Analysis>,

@@ -68,10 +68,11 @@ pub struct Signed {
     /// The version number of the newest trusted key set, if the anchor is a set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keys: Option<u32>,
-    /// The source code commit, as stated in the signed statement.
+    /// The source code commit, as stated in the signed statement; `None` if it states none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The digest of `Cargo.lock`, as stated in the signed statement. No root covers `Cargo.lock`.
+    /// The digest of `Cargo.lock`, as stated in the signed statement; `None` without such a statement. No root covers
+    /// `Cargo.lock`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lockfile: Option<Digest>,
     /// The reasons why the root is not signed as required; empty if it is.

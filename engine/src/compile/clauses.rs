@@ -40,7 +40,7 @@ pub struct TypeClause {
     pub stype: SpriteType,
     /// The class, inherited or not, or `None` for grouping nodes without a class.
     pub class: Option<SpriteClass>,
-    /// The parent type in the SpriteSet.
+    /// The parent type in the SpriteSet; `None` for a type without a parent.
     pub parent: Option<SpriteType>,
     /// `true` if the type has no subtypes.
     pub leaf: bool,

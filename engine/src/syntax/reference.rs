@@ -40,10 +40,10 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// The line's grammar, as determined by the last section name before the line, wherever that name is in
-    /// the tree.
+    /// The line's grammar, as determined by the last section name before the line, wherever that name is in the tree.
+    /// `None` if there is no such name.
     grammar: Option<Section>,
-    /// The section whose name is on the line, ignoring case.
+    /// The section whose name is on the line, ignoring case; `None` if the line is not a section name.
     heading: Option<Section>,
     parent: usize,
     children: Vec<usize>,

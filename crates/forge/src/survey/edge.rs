@@ -35,7 +35,7 @@ pub struct Edge {
     /// a fraction of the level's score range. The two players' episodes are paired by their random seeds. `None` if no
     /// level has differing scores.
     pub score: Option<f64>,
-    /// The 95% bootstrap interval of the gain in score, over episodes.
+    /// The 95% bootstrap interval of the gain in score, over episodes; `None` without such a gain.
     pub score_interval: Option<[f64; 2]>,
     /// `true` if the difference in win rate or in score is as large as the criteria require and significantly above 0.
     pub pays: bool,

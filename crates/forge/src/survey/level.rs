@@ -20,7 +20,7 @@ pub struct SurveyedLevel {
     /// The judges' findings.
     pub report: Report,
     /// The results of the ladder (reference players of increasing strength) on the level, and the difficulty derived
-    /// from them. The seeds have not been used in any search.
+    /// from them. The seeds have not been used in any search. `None` if no ladder played the level.
     pub ladder: Option<Ladder>,
     /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,

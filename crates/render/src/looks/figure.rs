@@ -213,7 +213,7 @@ pub(crate) fn mark(at: u16) -> &'static [Part] {
 /// The image that a game specifies for a type, or that the type's name suggests.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hint<'a> {
-    /// The type's role, in composed games.
+    /// The type's role, in composed games; `None` in other games.
     pub(crate) role: Option<&'a str>,
     /// The adjective, if the type represents a different state of a sprite.
     adjective: Option<&'a str>,

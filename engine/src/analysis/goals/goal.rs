@@ -101,10 +101,10 @@ pub struct Aims {
     pub protect: Vec<SpriteType>,
     /// Types whose appearance loses the game.
     pub prevent: Vec<SpriteType>,
-    /// The tick at which the game is won if the player survives until then.
+    /// The tick at which the game is won if the player survives until then; `None` if survival does not win.
     pub survive: Option<i32>,
-    /// The first tick at which a Timeout loses, or may lose, the game, disregarding the reference engine's
-    /// own tick limit.
+    /// The first tick at which a Timeout loses, or may lose, the game, disregarding the reference engine's own tick
+    /// limit. `None` if no Timeout loses.
     pub deadline: Option<i32>,
     /// `true` if losing the avatar loses the game.
     pub avatar_must_live: bool,

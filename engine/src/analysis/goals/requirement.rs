@@ -34,7 +34,7 @@ pub struct Requirement {
     pub types: Vec<SpriteType>,
     /// The minimum total number of sprites.
     pub at_least: u32,
-    /// The maximum total number of sprites.
+    /// The maximum total number of sprites; `None` for no maximum.
     pub at_most: Option<u32>,
     /// The reason for the requirement.
     pub reason: Reason,

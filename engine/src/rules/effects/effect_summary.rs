@@ -129,7 +129,7 @@ struct Properties<'a> {
     ending: Option<Ending>,
     movement: Option<Movement<'a>>,
     makes: &'a [SpriteType],
-    /// The type that must exist or be held for the effect to happen.
+    /// The type that must exist or be held for the effect to happen; `None` if the effect needs no type.
     names: Option<SpriteType>,
 }
 

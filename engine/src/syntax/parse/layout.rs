@@ -20,7 +20,7 @@ pub(crate) struct Line<'a> {
     pub(crate) whole: Span,
     /// The comment lines above the line.
     pub(crate) above: Vec<&'a str>,
-    /// The comment at the end of the line.
+    /// The comment at the end of the line, if there is one.
     pub(crate) beside: Option<&'a str>,
 }
 
