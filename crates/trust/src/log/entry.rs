@@ -127,7 +127,7 @@ pub struct ResultRow {
     pub rate: f64,
     /// The 95% interval of the win rate.
     pub interval: (f64, f64),
-    /// The mean score; `None` if it is unknown.
+    /// The mean score; `None` without finished episodes.
     pub score: Option<f64>,
 }
 
