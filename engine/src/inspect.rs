@@ -41,7 +41,7 @@ impl EffectRow {
     }
 }
 
-/// Returns `true` if updates of the type's sprites have no effect.
+/// Returns `true` if the type's sprites never do anything in their updates, apart from the player's avatar.
 pub fn is_idle(game: &Game, stype: SpriteType) -> bool {
     game.0.types[stype.index()].is_idle()
 }

@@ -93,8 +93,8 @@ pub fn misnamed<'a>(source: &str, names: impl IntoIterator<Item = &'a str>) -> V
     found
 }
 
-/// Returns the game file to which a level belongs, among the files in its folder. A file that is not named
-/// like a level belongs to the only game in its folder.
+/// Returns the game file to which a level belongs, among the files in its folder. A file whose name does not identify
+/// its game belongs to the only game in its folder. Returns `None` if the folder contains no game, or several.
 pub fn game_of<'a>(file: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let names: Vec<&str> = names.into_iter().filter(|name| *name != file).collect();
     let owner = level(file).map(|(owner, _)| owner.unwrap_or("game"));
@@ -136,8 +136,8 @@ const TEXTS: [&str; 4] = ["txt", "text", "lvl", "level"];
 /// The words that stand for a level in file names.
 const WORDS: [&str; 4] = ["level", "lvl", "lev", "lv"];
 
-/// Returns the game's name and the number in a file name that resembles a level's, such as `level_3.txt` or
-/// `lvl3`. The game's name is empty if the file name does not include one.
+/// Returns the game's name and the number in a file name that resembles a level's, such as `level_3.txt` or `lvl3`. The
+/// game's name is empty if the file name does not include one. Returns `None` for any other file name.
 fn like_level(name: &str) -> Option<(&str, usize)> {
     let is_text = |ending: &str| TEXTS.iter().any(|text| ending.eq_ignore_ascii_case(text));
     let mut stem = name;
@@ -176,7 +176,8 @@ fn is_game(name: &str) -> bool {
     is_source(name) && stem(name).eq_ignore_ascii_case("game")
 }
 
-/// Returns the game's name in a level's file name, if any, and the level's number.
+/// Returns the game's name in a level's file name, if any, and the level's number; `None` if the file is not named like
+/// a level.
 fn level(name: &str) -> Option<(Option<&str>, usize)> {
     let stem = stem(name);
     let numbered = stem.trim_end_matches(|c: char| c.is_ascii_digit());

@@ -78,7 +78,8 @@ impl Case {
         lines.collect()
     }
 
-    /// Returns the case's result.
+    /// Loads the case with one of the two loading policies, and plays it. Returns the result in the form used in
+    /// `name.expect`.
     pub fn end(&self, as_reference: bool) -> String {
         let load = if as_reference { Game::from_source_as_reference } else { Game::from_source };
         let game = match load(&self.source) {

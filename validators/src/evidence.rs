@@ -1,4 +1,4 @@
-//! A validator's observations, each of which is a sentence that may come with advice, a tick, a cell, a line
+//! A validator's observations. Each is a sentence, which may come with advice, a tick, a cell, a line of the game file,
 //! and a board.
 
 use crate::explain::board::Board;
@@ -18,7 +18,7 @@ pub struct Evidence {
     /// The cell, as column and row, counted from 1 at the upper left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell: Option<(usize, usize)>,
-    /// The line of the game file to which the observation refers.
+    /// The line of the game file that the observation is about.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<Line>,
     /// The board at the time of the observation.
@@ -35,7 +35,7 @@ impl Evidence {
         Evidence { text: text.into(), ..Evidence::default() }
     }
 
-    /// Adds the line to which the observation refers.
+    /// Adds the line of the game file that this evidence is about.
     #[must_use]
     pub fn of_rule(self, rule: Line) -> Evidence {
         Evidence { rule: Some(rule), ..self }

@@ -68,8 +68,8 @@ base::with_defaults! {
         /// The minimum difference between the mean scores of stronger and weaker players, as a fraction of the range of
         /// all scores. Reaching this difference is sufficient even if `skill_wins` is not reached.
         pub skill_scores: f64 = 0.1,
-        /// The minimum for the lower end of the 95% interval of the difference between win rates over all levels
-        /// together.
+        /// `skill-overall`: the minimum lower end of the 95% interval for a difference between two players' win rates
+        /// over all levels. One of the players looks ahead, and the other is the best player that does not.
         pub skill_overall: f64 = 0.25,
         /// The number of forward-model calls per rule to show that the rule matters.
         pub ablation_calls: u64 = 200_000,

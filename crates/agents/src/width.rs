@@ -50,10 +50,11 @@ pub struct Width {
     streams: Streams,
     /// The largest score change in one tick so far, at least 1.
     unit: f64,
-    /// The number of ticks in the episode in which each atom (fact about the state) was present.
+    /// The number of ticks in the episode in which each atom (fact about the state) was present; `None` before the
+    /// first decision.
     #[serde(rename = "been")]
     presence: Option<(Features, Vec<u32>)>,
-    /// The rest of the last plan.
+    /// The rest of the last plan; `None` if nothing is left of it.
     plan: Option<Plan>,
     #[serde(skip)]
     analysis: Option<Analysis>,
@@ -82,7 +83,7 @@ impl Plan {
         self.value(usize::MAX) + self.bonus
     }
 
-    /// Returns the plan without its first action.
+    /// Returns the plan without its first action; `None` if the plan has no other action.
     fn rest(&self, discount: f64) -> Option<Plan> {
         let (&first, values) = self.values.split_first()?;
         if values.is_empty() {

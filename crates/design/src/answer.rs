@@ -61,7 +61,8 @@ impl Block<'_> {
     }
 }
 
-/// Returns the rest of the line after `label`, which may be emphasised with asterisks.
+/// Returns the rest of the line after `label`, which may be emphasised with asterisks. Returns `None` if the line does
+/// not begin with the label.
 fn labelled<'a>(line: &'a str, label: &str) -> Option<&'a str> {
     let line = line.trim_start_matches(['*', '#', ' ', '-']);
     let start = line.get(..label.len()).filter(|start| start.eq_ignore_ascii_case(label))?;
@@ -85,7 +86,7 @@ pub(crate) fn idea(text: &str) -> Result<Idea, String> {
     Ok(Idea { name: name.to_owned(), text: words.join(" ") })
 }
 
-/// Reads the rules: the last block that contains a game.
+/// Reads the rules: the last block that contains a game. Returns `None` if there is no such block.
 pub(crate) fn rules(text: &str) -> Option<String> {
     blocks(text).iter().rfind(|block| block.is_rules()).map(Block::text)
 }

@@ -17,9 +17,9 @@ pub const MAX_THEME: usize = 500;
 pub struct Brief {
     /// The number of levels per game.
     pub levels: usize,
-    /// The theme of the games, in the user's words.
+    /// The theme of the games, in the user's words; `None` if the designer may choose a theme.
     pub theme: Option<String>,
-    /// The minimum tier (difficulty class from 1 to 4) of each game's last level.
+    /// The minimum tier (difficulty class from 1 to 4) of each game's last level; `None` if no tier is required.
     pub tier: Option<Tier>,
     /// The sprite classes, effects, terminations and mechanics that each game must use. A game uses a mechanic if it
     /// uses all keywords of the mechanic.

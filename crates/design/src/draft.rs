@@ -47,7 +47,7 @@ pub struct Draft {
     pub spending: Spending,
     /// The digest of all answers, in the order in which they were given.
     pub answers: Digest,
-    /// The last rules that compiled.
+    /// The last rules that compiled; `None` if no rules did.
     pub rules: Option<String>,
     /// The last levels that loaded with these rules.
     pub levels: Vec<String>,

@@ -28,7 +28,7 @@ pub struct Nearest {
 }
 
 impl Nearest {
-    /// Returns `true` if the two games do not count as the same game.
+    /// Returns `true` if the new game and the known one do not count as the same game.
     pub fn is_far(&self) -> bool {
         self.distance >= NEAR
     }

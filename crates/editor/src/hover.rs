@@ -42,8 +42,8 @@ pub fn hover(source: &str, at: usize) -> Option<Hover> {
     Some(Hover { span: word.span, markdown })
 }
 
-/// Returns the explanation of the character at byte `at` in a level, which lists the sprites that the character
-/// places in this game.
+/// Returns the explanation of the character at byte `at` in a level, which lists the sprites that the character places
+/// in this game; `None` if the LevelMapping does not contain the character.
 pub fn level_hover(source: &str, level: &str, at: usize) -> Option<Hover> {
     let (span, symbol) = symbol_at(level, at)?;
     let words = Words::of(source);

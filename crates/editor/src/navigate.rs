@@ -31,8 +31,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Returns the position where the sprite type, level character or `GameSpace` parameter at byte `at` is
-/// declared.
+/// Returns the position where the sprite type, level character or `GameSpace` parameter at byte `at` is declared;
+/// `None` if there is no declaration.
 pub fn definition(source: &str, at: usize) -> Option<Span> {
     let words = Words::of(source);
     let subject = Subject::of(words.at(at)?)?;

@@ -52,8 +52,9 @@ pub(crate) struct Row {
     pub(crate) meaning: String,
 }
 
-/// Returns the table row for a parameter on a line. The row comes from the page of the line's keyword, from
-/// the pages that this keyword extends, or from the page for all keywords of its kind.
+/// Returns the table row for a parameter on a line. The row comes from the page of the line's keyword, from the pages
+/// that this keyword extends, or from the page for all keywords of its kind. Returns `None` if none of these pages
+/// lists the parameter.
 pub(crate) fn row(owner: Owner<'_>, key: &str) -> Option<Row> {
     let found = |folder: &str, name: &str| text(folder, name).and_then(|page| row_of(page, key));
     match owner {

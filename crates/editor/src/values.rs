@@ -94,7 +94,8 @@ pub(crate) fn kind(owner: Owner<'_>, key: &str) -> Option<Kind> {
     }
 }
 
-/// Returns the kind of a parameter that refers to sprites, and may appear on lines of any kind.
+/// Returns the kind of a parameter that refers to sprites, and may appear on lines of any kind; `None` for any other
+/// parameter.
 fn of_line(key: &str) -> Option<Kind> {
     (key.starts_with("stype") || ["ammo", "spawnBehind", "resource_name"].contains(&key))
         .then_some(Kind::Sprites)

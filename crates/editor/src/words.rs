@@ -79,7 +79,7 @@ pub(crate) struct Word<'a> {
     pub(crate) span: Span,
     pub(crate) role: Role,
     pub(crate) owner: Owner<'a>,
-    /// The parameter whose value contains the word.
+    /// The parameter whose value contains the word; `None` for a word outside parameter values.
     pub(crate) key: Option<&'a str>,
 }
 
@@ -98,7 +98,7 @@ pub(crate) struct Sprite<'a> {
     pub(crate) name: &'a str,
     /// The class of the sprites. An inherited class takes precedence over a class on the line.
     pub(crate) class: Option<SpriteClass>,
-    /// The index of the parent type.
+    /// The index of the parent type; `None` for a type without a parent.
     pub(crate) parent: Option<usize>,
     /// The parameters on the line.
     pub(crate) params: Vec<(&'a str, &'a str)>,

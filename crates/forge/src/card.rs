@@ -111,7 +111,7 @@ pub struct LevelCard {
     /// tiers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<Demand>,
-    /// The tier (difficulty class from 1 to 4) derived from the demands.
+    /// The tier (difficulty class from 1 to 4) derived from the demands. Present if the demands are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
 }

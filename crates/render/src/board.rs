@@ -203,7 +203,7 @@ fn plated(picture: &mut Picture, place: Place, look: Look) -> Place {
 const DISABLED: u16 = 1;
 
 /// Returns the direction that a sprite's front faces: its orientation or, for crafts without an orientation, its
-/// rotation.
+/// rotation. Returns `None` for glyphs without a front, and for sprites without a direction.
 fn facing(record: &SpriteRecord, glyph: Glyph) -> Option<Point> {
     if !glyph.turns() && glyph != Glyph::Avatar {
         return None;

@@ -66,7 +66,8 @@ pub struct Session {
     pub(crate) paused: bool,
     /// The number of ticks per second while the clock is running.
     pub(crate) pace: u16,
-    /// The action for the next tick, chosen by the last key pressed since the previous tick.
+    /// The action for the next tick, chosen by the last key pressed since the previous tick; `None` if no key was
+    /// pressed.
     chosen: Option<Action>,
     /// The number of lines by which the rules are scrolled.
     pub(crate) scroll: u16,

@@ -68,10 +68,11 @@ pub struct Signed {
     /// The version number of the newest trusted key set, if the anchor is a set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keys: Option<u32>,
-    /// The source code commit, as stated in the signed statement.
+    /// The source code commit, as stated in the signed statement; `None` if it states none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The digest of `Cargo.lock`, as stated in the signed statement. No root covers `Cargo.lock`.
+    /// The digest of `Cargo.lock`, as stated in the signed statement; `None` without such a statement. No root covers
+    /// `Cargo.lock`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lockfile: Option<Digest>,
     /// The reasons why the root is not signed as required; empty if it is.
@@ -167,7 +168,8 @@ impl Signatures {
         self.sets.get(&format!("keys-{version}.json")).and_then(|set| set.as_ref().ok())
     }
 
-    /// Returns the newest set in the chain of valid sets that follow a trusted set (the anchor).
+    /// Returns the newest set in the chain of valid sets that starts with a trusted set (the anchor). Adds the reason
+    /// why the chain ends to `problems`, if the next set exists but is invalid.
     fn newest(&self, anchor: &KeySet, problems: &mut Vec<String>) -> KeySet {
         let mut newest = anchor.clone();
         // The loop terminates, because each set has a higher number than the previous set, and a separate

@@ -40,7 +40,7 @@ pub struct KeysInForce {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// The version of arcade recorded in the release's manifest, such as `0.13.0`.
+    /// The version of arcade recorded in the release's manifest, such as `0.13.0`; `None` if the manifest records none.
     pub version: Option<String>,
     /// The version of the generators (their generation).
     pub generation: u32,
@@ -48,7 +48,7 @@ pub struct Provenance {
     pub semantics: u32,
     /// The digest of `Cargo.lock`.
     pub lockfile: Digest,
-    /// The source code commit, as stated by the publisher.
+    /// The source code commit, as stated by the publisher; `None` if the publisher states none.
     pub commit: Option<String>,
 }
 

@@ -226,8 +226,8 @@ impl<'a> PossibleFutures<'a> {
         self.rules.types[stype].class == Some(SpriteClass::OngoingTurningAvatar) && self.made[stype]
     }
 
-    /// Returns the resource that an avatar needs to create sprites of the type at index `kind` in its list of
-    /// types.
+    /// Returns the resource that an avatar needs to create sprites of the type at index `kind` in its list of types;
+    /// `None` if it needs none, or if the resource is unknown.
     fn ammo(&self, maker: usize, kind: usize) -> Option<SpriteType> {
         let traits = &self.rules.types[maker].traits;
         // The type facts omit undeclared types. If the traits contain one, the list of created types and the

@@ -158,9 +158,9 @@ impl Analysis {
         })
     }
 
-    /// Returns a sign's direction as a unit vector. A sign is a motionless, oriented type that turns the
-    /// sprites that touch it, for example into its own direction. Rules may also turn the sign itself. Cost:
-    /// O(encounters).
+    /// Returns a sign's direction as a unit vector; `None` if the type is not a sign. A sign is a motionless, oriented
+    /// type that turns the sprites that touch it, for example into its own direction. Rules may also turn the sign
+    /// itself. Cost: O(encounters).
     pub fn sign(&self, stype: SpriteType) -> Option<Direction> {
         let traits = &self.game.0.types[stype.index()].traits;
         let faces = traits.is_oriented && traits.orientation != Direction::NONE;
@@ -274,8 +274,8 @@ impl Analysis {
         self.game.0.types[stype.index()].leads_to().filter(|&exit| exit != SpriteType::NONE)
     }
 
-    /// Returns the type and direction of the sprites that `maker` launches, if those sprites move in a
-    /// straight line.
+    /// Returns the type and direction of the sprites that `maker` launches. Returns `None` if it launches none, if they
+    /// do not move in a straight line, or if their direction is unknown.
     pub fn launches(&self, maker: SpriteType) -> Option<(SpriteType, Direction)> {
         let made = *self.facts(maker).makes.first()?;
         let Motion::Straight(own) = self.facts(made).motion else { return None };

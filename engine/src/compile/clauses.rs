@@ -40,7 +40,7 @@ pub struct TypeClause {
     pub stype: SpriteType,
     /// The class, inherited or not, or `None` for grouping nodes without a class.
     pub class: Option<SpriteClass>,
-    /// The parent type in the SpriteSet.
+    /// The parent type in the SpriteSet; `None` for a type without a parent.
     pub parent: Option<SpriteType>,
     /// `true` if the type has no subtypes.
     pub leaf: bool,
@@ -314,7 +314,8 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Returns the parameter with this name. If the name is duplicated, returns the last parameter.
+    /// Returns the parameter with this name; `None` if the line does not contain it. If the name is duplicated, returns
+    /// the last parameter.
     fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

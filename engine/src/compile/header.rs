@@ -11,7 +11,7 @@ const KEYS: [&str; 5] = ["square_size", "key_handler", "no_players", "no_counter
 /// The settings in the first line.
 #[derive(Debug, Default)]
 pub(super) struct Header {
-    /// The cell size in pixels.
+    /// The cell size in pixels; `None` if the game does not set it.
     pub(super) square_size: Option<i32>,
     pub(super) counters: usize,
     /// The sprite types that paths avoid, or `None` if the game does not use path finding.

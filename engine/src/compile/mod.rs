@@ -426,7 +426,8 @@ impl<'a> Names<'a> {
         found
     }
 
-    /// Returns the sprite type named by a parameter's value or by one entry in that value.
+    /// Returns the sprite type named by a parameter's value or by one entry in that value. Reports an undeclared name,
+    /// and returns `None` for it.
     fn resolve_value(self, param: &Param, name: &Word, problems: &mut Vec<Diagnostic>) -> Option<SpriteType> {
         let found = self.find(&name.text);
         if found.is_none() {

@@ -207,8 +207,8 @@ impl<'a> Reader<'a> {
         self.names.resolve_value(param, &param.value, self.problems)
     }
 
-    /// Returns the sprite types that the parameters in `keys` name. In strict mode, the first parameter is
-    /// required.
+    /// Returns the sprite types that the parameters in `keys` name; `None` if a name is undeclared. In strict mode, the
+    /// first parameter is required.
     fn sprites(&mut self, keys: [&str; 3]) -> Option<SmallVec<[SpriteType; 3]>> {
         if self.param(keys[0]).is_none() {
             self.needs(keys[0]);

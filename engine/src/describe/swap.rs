@@ -40,8 +40,8 @@ pub(super) fn parts(analysis: &Analysis) -> Vec<(usize, Vec<&Encounter>)> {
     parts.map(|part| (part[0].line, part.iter().collect())).collect()
 }
 
-/// Returns the two types of a line that does nothing except turn every sprite of the first type into a sprite
-/// of the second.
+/// Returns the two types of a line that does nothing except turn every sprite of the first type into a sprite of the
+/// second; `None` for any other line.
 fn changed(
     analysis: &Analysis,
     (line, encounters): &(usize, Vec<&Encounter>),

@@ -172,9 +172,9 @@ impl Diagnostic {
     }
 }
 
-/// Returns the candidate most likely meant by `wrong`: a candidate with the same words in a different order,
-/// or with a few different letters. Candidates that have the opposite meaning, or that share only their
-/// ending with `wrong`, are not considered.
+/// Returns the candidate most likely meant by `wrong`: a candidate with the same words in a different order, or with a
+/// few different letters. Candidates that have the opposite meaning, or that share only their ending with `wrong`, are
+/// not considered. Returns `None` if no candidate is similar enough.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (key, parts) = (wrong.to_lowercase(), words(wrong));
     let length = key.chars().count();

@@ -70,7 +70,8 @@ macro_rules! flat {
                 $(crate::flat::put_buffer(&self.$buffer, &base.$buffer, to);)*
             }
 
-            /// Applies differences to `self`, which must be a copy of the base.
+            /// Reads differences that `put_differences` wrote, and applies them to `self`, which must equal the `base`
+            /// given there. Advances `from` past the differences.
             pub(crate) fn take_differences(&mut self, from: &mut &[u8]) {
                 $(crate::flat::take_scalar(&mut self.$number, from);)*
                 $(crate::flat::take_buffer(&mut self.$buffer, from);)*
@@ -125,7 +126,7 @@ pub(crate) fn take_buffer<T: Bytes>(buffer: &mut Vec<T>, from: &mut &[u8]) {
         let value = T::take(from);
         match buffer.get_mut(next - 1) {
             Some(old) => *old = value,
-            // Beyond the end of the base, every entry counts as different.
+            // `put_buffer` writes every entry beyond the end of `base`.
             None => buffer.push(value),
         }
     }

@@ -111,7 +111,8 @@ impl Game {
         state.avatar_type().is_some_and(|stype| self.0.types[stype.index()].keys >> action as u8 & 1 != 0)
     }
 
-    /// Returns the actions available to an avatar of the given type, sorted, without [`Action::Nil`].
+    /// Returns the actions available to an avatar of the given type, sorted, without [`Action::Nil`]. Returns only
+    /// [`Action::Nil`] if there are no others.
     pub fn actions_of(&self, avatar: SpriteType) -> &'static [Action] {
         self.0.types[avatar.index()].actions
     }

@@ -375,8 +375,8 @@ impl LevelReader<'_> {
         }
     }
 
-    /// Returns the sprite type that an unmapped character most likely stands for: the only type whose name
-    /// begins with this character and that no character places.
+    /// Returns the sprite type that an unmapped character most likely stands for: the only type whose name begins with
+    /// this character and that no character places. Returns `None` if there is no such type, or if there are several.
     fn unplaced(&self, symbol: char) -> Option<&str> {
         let rules = &self.game.0;
         let mapped: BTreeSet<&SpriteType> = rules.mapping.iter().flatten().collect();
@@ -508,7 +508,8 @@ impl LevelReader<'_> {
     }
 }
 
-/// Returns the most frequent printable character around a cell. Orthogonal neighbours count twice.
+/// Returns the most frequent printable character around a cell; `None` if there is none. Orthogonal neighbours count
+/// twice.
 fn around(at: usize, columns: usize, cells: &[u8]) -> Option<char> {
     let (column, row) = ((at % columns) as isize, (at / columns) as isize);
     let mut weights = [0; 128];

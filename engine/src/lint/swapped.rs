@@ -111,7 +111,8 @@ pub(super) fn swapped_threat(game: &Game) -> Option<(String, String)> {
     found.next().filter(|_| found.next().is_none())
 }
 
-/// Returns the line with its sides swapped, as one line per partner.
+/// Returns the line with its sides swapped, as one line per partner. Returns `None` if a side is `EOS` or `TIME`, or if
+/// both sides contain the same type.
 fn swapped(line: &InteractionLine) -> Option<Vec<InteractionLine>> {
     let sides = || line.second.iter().chain([&line.first]);
     let is_sprite = |name: &str| !["EOS", "TIME"].contains(&name);

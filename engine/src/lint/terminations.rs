@@ -227,7 +227,8 @@ impl Linter<'_> {
         problems.push(Diagnostic::warning(code, line.class.span, format!("{fault}: {reason}")).help(help));
     }
 
-    /// Returns an avatar type that levels can place, and the first rule that removes avatars of that type.
+    /// Returns the initial avatar type, and the first rule that removes avatars of that type; `None` if there is no
+    /// such rule.
     fn deadly_rule(&self) -> Option<(String, String)> {
         let avatar = self.analysis.start_avatar()?.stype;
         let kills = |encounter: &&Encounter| {
@@ -285,8 +286,8 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns the rule that would remove sprites of the type but requires more of a resource than any sprite can
-    /// hold, and a suggestion.
+    /// Describes the rule that would remove sprites of the type but requires more of a resource than any sprite can
+    /// hold. Also returns a suggestion. Returns `None` if there is no such rule.
     fn unobtainable(&self, written: SpriteType) -> Option<(String, String)> {
         let lines = &self.game.description().interactions;
         let encounters = self.analysis.encounters();

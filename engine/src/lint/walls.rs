@@ -24,8 +24,8 @@ impl Linter<'_> {
     }
 }
 
-/// Returns a warning about the type that surrounds a level and does not stop the avatar. Types named like
-/// walls are skipped, because the game already has a warning about them.
+/// Returns a warning about the type that surrounds a level and does not stop the avatar. Returns `None` if there is no
+/// such type, or if it is named like a wall, because the game already has a warning about it.
 pub(crate) fn open_border(game: &Game, level: &Level) -> Option<Diagnostic> {
     let (columns, rows) = (level.columns(), level.rows());
     if columns < LEAST_SIDE || rows < LEAST_SIDE {

@@ -48,8 +48,8 @@ pub(crate) fn meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     table(place).iter().find(|known| known.words.split(' ').any(|word| word == plain))
 }
 
-/// Returns the meaning of a word that differs by one letter from a word in the table, or the meaning for any
-/// other avatar class.
+/// Returns the meaning of a word that differs by one letter from a word in the table. For any other class that ends
+/// with `avatar`, returns the meaning for avatar classes. Returns `None` for all other words.
 pub(crate) fn near_meaning(place: Place, word: &str) -> Option<&'static Meaning> {
     let plain = word.to_lowercase();
     if plain.len() > MAX_NAME {

@@ -370,8 +370,8 @@ impl Game {
         state.world.timers().iter().rev().filter_map(countdown)
     }
 
-    /// Returns the event that a timed effect causes, and the type that it concerns. Effects that run in every
-    /// tick or every second tick cause no event.
+    /// Returns the event that a timed effect causes, and the type that it concerns. Returns `None` for effects without
+    /// a visible event, and for effects that run in every tick or every second tick.
     fn timed_event(&self, timed: &Timed) -> Option<(SpriteType, Event)> {
         if timed.repeating && timed.timer <= 2 {
             return None;
@@ -465,7 +465,8 @@ impl State {
         })
     }
 
-    /// Returns the creation number of the player's avatar, even if the avatar is disabled.
+    /// Returns the creation number of the player's avatar, even if the avatar is disabled; `None` if there is no
+    /// avatar.
     pub fn avatar_id(&self) -> Option<u32> {
         self.world.avatar_id()
     }

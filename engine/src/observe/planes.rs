@@ -144,7 +144,8 @@ impl Planes {
         u32::from(plane) << 16 | self.single_cell(sprite, world).map_or(SPREAD, |cell| cell as u32)
     }
 
-    /// Returns the cell of a sprite that covers exactly one cell and stays in it until it is recorded as changed.
+    /// Returns the cell of a sprite that covers exactly one cell and stays in it until it is recorded as changed;
+    /// `None` for any other sprite.
     #[inline(always)]
     fn single_cell(&self, sprite: &Sprite, world: &World) -> Option<usize> {
         let (column, row) = (i32::from(sprite.column) - 1, i32::from(sprite.row) - 1);

@@ -125,7 +125,7 @@ impl SpriteClass {
             || matches!(self, C::RandomMissile | C::Spreader | C::SpawnPointMultiSprite)
     }
 
-    /// Returns the class with this name. The name is case-sensitive.
+    /// Returns the class with this name; `None` if there is no such class. The name is case-sensitive.
     pub fn from_name(name: &str) -> Option<SpriteClass> {
         SpriteClass::ALL.iter().copied().find(|class| class.name() == name)
     }

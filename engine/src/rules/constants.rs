@@ -12,7 +12,7 @@ pub(crate) enum Constant {
     Unusable,
 }
 
-/// Returns the constant with this name. The name is case-sensitive.
+/// Returns the constant with this name; `None` if there is no such constant. The name is case-sensitive.
 pub(crate) fn constant(name: &str) -> Option<Constant> {
     use Constant::{Color, Int};
     let bare = name.strip_prefix('D').filter(|rest| DIRECTIONS.iter().any(|(name, _)| name == rest));

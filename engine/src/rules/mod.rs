@@ -75,7 +75,8 @@ pub(crate) struct TypeInfo {
 pub(crate) const NOT_IN_TREE: u16 = u16::MAX;
 
 impl TypeInfo {
-    /// Returns the type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3).
+    /// Returns the type to which teleportToExit leads from a sprite of this type (`spec/03` §8.3); `None` if it leads
+    /// nowhere.
     pub(crate) fn leads_to(&self) -> Option<SpriteType> {
         use SpriteClass as C;
         let class = self.class?;
@@ -102,14 +103,15 @@ impl TypeInfo {
         self.tree.iter().enumerate().any(|(at, stype)| usize::from(self.rank[stype.index()]) != at)
     }
 
-    /// Returns the class and the update-order position of sprites whose updates have an effect.
+    /// Returns the type's class and its position in the update order; `None` if its sprites never do anything in their
+    /// updates.
     pub(crate) fn updated(&self) -> Option<(SpriteClass, i32)> {
         let class = self.class.filter(|_| !self.is_idle())?;
         Some((class, i32::from(self.order?)))
     }
 
-    /// Returns `true` if updates of the type's sprites never have an effect. Such updates cost nothing in a
-    /// tick.
+    /// Returns `true` if the type's sprites never do anything in their updates. Such updates cost nothing in a tick.
+    /// The player's avatar does not count, because it is updated separately.
     pub(crate) fn is_idle(&self) -> bool {
         let (Some(class), traits) = (self.class, &self.traits) else { return true };
         match (class, class.family()) {

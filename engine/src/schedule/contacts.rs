@@ -136,7 +136,7 @@ impl Schedule {
         }
     }
 
-    /// Returns the first possible pass with an index of at least `from`.
+    /// Returns the first possible pass with an index of at least `from`; `None` if there is no such pass.
     pub(crate) fn next_possible(&self, from: usize) -> Option<usize> {
         let mut word = from / 64;
         let mut bits = self.possible.get(word)? & (u64::MAX << (from % 64));

@@ -61,7 +61,7 @@ flat! {
 /// A game's shortcuts, derived from its rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
-    /// The types whose updates have an effect, in update order.
+    /// The types whose sprites can do something in their updates, in update order.
     movers: Vec<Mover>,
     /// The tables from which the possible passes are derived, given the types that share cells.
     pub(crate) contacts: Contacts,

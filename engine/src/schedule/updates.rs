@@ -1,5 +1,5 @@
-//! The updates in a tick that have an effect. Idle types, waiting sprites and producers that only draw random
-//! numbers are skipped.
+//! Updates of the sprites in a tick. Updates that change nothing are skipped: idle types, waiting sprites, and
+//! producers that only draw random numbers.
 
 use super::sleep::{Shortcuts, mark};
 use super::{Foresight, Step};
@@ -27,7 +27,7 @@ fn waits(sprite: &Sprite, traits: &Traits, world: &World) -> bool {
     traits.cooldown > age && !sprite.is(flag::FIRST_TICK | flag::FROZEN) && !traits.continuous
 }
 
-/// A type whose sprites' updates have an effect.
+/// A type whose sprites can do something in their updates, such as move, spawn or turn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mover {
     stype: SpriteType,
@@ -70,7 +70,7 @@ fn update_kind(class: SpriteClass, traits: &Traits) -> UpdateKind {
     }
 }
 
-/// Returns the types whose updates have an effect, in update order.
+/// Returns the types whose sprites can do something in their updates, in update order.
 pub(super) fn movers(rules: &Rules, shortcuts: &[Shortcuts]) -> Vec<Mover> {
     let mover = |&stype: &SpriteType| {
         let info = &rules.types[stype.index()];

@@ -51,7 +51,7 @@ impl Param {
 pub struct Trivia {
     /// The comment lines above the line, without the `#`.
     pub above: Vec<String>,
-    /// The comment at the end of the line, without the `#`.
+    /// The comment at the end of the line, without the `#`, if there is one.
     pub beside: Option<String>,
 }
 

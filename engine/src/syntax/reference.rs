@@ -40,10 +40,10 @@ pub(super) fn read(source: &str) -> Result<Description, Diagnostic> {
 struct Node<'a> {
     line: &'a Line<'a>,
     tokens: Vec<Word>,
-    /// The line's grammar, as determined by the last section name before the line, wherever that name is in
-    /// the tree.
+    /// The line's grammar, as determined by the last section name before the line, wherever that name is in the tree.
+    /// `None` if there is no such name.
     grammar: Option<Section>,
-    /// The section whose name is on the line, ignoring case.
+    /// The section whose name is on the line, ignoring case; `None` if the line is not a section name.
     heading: Option<Section>,
     parent: usize,
     children: Vec<usize>,
@@ -68,7 +68,7 @@ impl Node<'_> {
             && (has_effect || self.grammar != Some(Section::InteractionSet))
     }
 
-    /// Returns the index of the first `>` after the first word.
+    /// Returns the index of the first `>` after the first word; `None` if there is none.
     fn arrow(&self) -> Option<usize> {
         self.tokens.iter().skip(1).position(|token| token.text == ">").map(|at| at + 1)
     }
@@ -250,8 +250,8 @@ fn tokens(line: &Line<'_>) -> Vec<Word> {
     words.map(|word| Word { text: word.to_owned(), span: line.span_of(word) }).collect()
 }
 
-/// Returns the parameter in a word with an equals sign. The key is the text before the first equals sign, and
-/// the value is the text up to the next equals sign.
+/// Returns the parameter in a word with an equals sign; `None` if the word has no equals sign, or no text after it. The
+/// key is the text before the first equals sign, and the value is the text up to the next equals sign.
 fn param(token: &Word) -> Option<Param> {
     let parts: Vec<&str> = token.text.trim_end_matches('=').split('=').collect();
     let (&[key, value, ..], true) = (&parts[..], token.text.contains('=')) else { return None };

@@ -62,7 +62,7 @@ pub(crate) fn update(step: &mut Step<'_, impl Scheduler>, slot: Slot, action: Ac
     }
 }
 
-/// Returns an action's direction, as an index into [`Direction::BASE`].
+/// Returns an action's direction, as an index into [`Direction::BASE`]; `None` for actions without a direction.
 fn base(action: Action) -> Option<usize> {
     match action {
         Action::Up => Some(0),

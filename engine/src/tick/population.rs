@@ -13,8 +13,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.rules.types[self.world.sprite(slot).stype.index()].class.is_some_and(SpriteClass::is_avatar)
     }
 
-    /// Creates a sprite, unless the type or an ancestor is a singleton that already has a sprite, or the
-    /// number of sprites is at its limit (`spec/01` §3.5).
+    /// Creates a sprite. Returns `None` if the type or an ancestor is a singleton that already has a sprite, or if the
+    /// number of sprites is at its limit (`spec/01` §3.5). A type that is undeclared or has no class stops the episode.
     pub(crate) fn add(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         let rules = self.rules;
         if self.is_full() {
@@ -29,7 +29,8 @@ impl<S: Scheduler> Step<'_, S> {
         self.make(stype, x, y)
     }
 
-    /// Creates a sprite even if the type or an ancestor is a singleton that already has a sprite.
+    /// Creates a sprite like [`Step::add`], but even if the type or an ancestor is a singleton that already has a
+    /// sprite.
     pub(crate) fn add_forced(&mut self, stype: SpriteType, x: i32, y: i32) -> Option<Slot> {
         if self.is_full() { None } else { self.make(stype, x, y) }
     }

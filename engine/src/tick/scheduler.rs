@@ -22,7 +22,7 @@ pub(crate) trait Scheduler: Watcher + Sized {
         }
     }
 
-    /// Returns the next event-phase pass with an index of at least `from`.
+    /// Returns the next event-phase pass with an index of at least `from`; `None` if there is no such pass.
     fn next_pass(step: &Step<'_, Self>, from: usize) -> Option<usize> {
         Some(from).filter(|&number| number < step.rules.passes.len())
     }

@@ -233,7 +233,8 @@ impl World {
         !matches!(self.outcome, Outcome::Ongoing)
     }
 
-    /// Returns the creation number of the player's avatar, even if the avatar is disabled.
+    /// Returns the creation number of the player's avatar, even if the avatar is disabled; `None` if there is no
+    /// avatar.
     pub(crate) fn avatar_id(&self) -> Option<u32> {
         self.avatar_sprite().map(|sprite| sprite.id)
     }
@@ -258,7 +259,7 @@ impl World {
         self.sprites.get(usize::from(slot))
     }
 
-    /// Returns the player's avatar, even if the avatar is disabled.
+    /// Returns the player's avatar, even if the avatar is disabled; `None` if there is no avatar.
     pub(crate) fn avatar_sprite(&self) -> Option<&Sprite> {
         self.get(self.avatar)
     }

@@ -139,7 +139,7 @@ impl World {
         self.timers.insert(at, timer);
     }
 
-    /// Removes and returns a due timer.
+    /// Removes and returns the next due timer; `None` if no timer is due.
     pub(crate) fn take_due(&mut self) -> Option<Timer> {
         self.timers.pop_if(|timer| timer.due <= self.tick)
     }

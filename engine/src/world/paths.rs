@@ -151,8 +151,8 @@ impl World {
         (paths.first(start, goal), paths.cells.len() / share)
     }
 
-    /// Returns the cell that contains a pixel. The reference multiplies by the reciprocal of the block size,
-    /// which yields a lower cell for some sizes.
+    /// Returns the cell that contains a pixel; `None` for a pixel off the board. The reference multiplies by the
+    /// reciprocal of the block size, which yields a lower cell for some sizes.
     fn path_cell(&self, (x, y): (i32, i32)) -> Option<usize> {
         let reciprocal = 1.0 / f64::from(self.block);
         let column = (f64::from(x) * reciprocal) as i32;

@@ -52,7 +52,7 @@ impl<'k> Draft<'k> {
         self.kit.palette.wall == Some(self.cells[cell])
     }
 
-    /// Returns `true` if a cell permanently blocks the avatar.
+    /// Returns `true` if a cell contains something that the avatar can never pass or remove.
     pub(crate) fn is_solid(&self, cell: usize) -> bool {
         self.kit.is_solid(self.cells[cell])
     }

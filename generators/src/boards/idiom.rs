@@ -18,10 +18,11 @@ pub enum Idiom {
     /// A type that breaks under the player, or changes into an obstacle. The sprites belong in gaps, where they form a
     /// road to the other side.
     Road,
-    /// A type that permanently stops the player like a wall, without being a wall. The sprites form gulfs, ponds, and
+    /// A type that no rule removes and that always stops the player, as a wall does. The sprites form gulfs, ponds, and
     /// lines crossed by roads.
     Obstacle,
-    /// A type that permanently kills the player. The sprites form pools beside the path.
+    /// A type that kills or stops the player, and that can never be opened, removed or passed. The sprites form pools
+    /// beside the path.
     Hazard,
     /// A type that is collected, touched or guarded. The sprites belong in groups.
     Thing,

@@ -64,12 +64,12 @@ impl<'a> Kit<'a> {
         Some(kit)
     }
 
-    /// Returns the piece for a character.
+    /// Returns the piece for a character; `None` if the character places no piece.
     pub(crate) fn piece(&self, symbol: u8) -> Option<&Piece> {
         self.pieces.iter().find(|piece| piece.symbol == symbol)
     }
 
-    /// Returns `true` if a character permanently blocks the avatar.
+    /// Returns `true` if a character places something that the avatar can never pass or remove.
     pub(crate) fn is_solid(&self, symbol: u8) -> bool {
         self.palette.wall == Some(symbol)
             || (self.palette.walk(symbol) == Walk::Blocked

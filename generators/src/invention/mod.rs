@@ -1,4 +1,5 @@
-//! Invention of rules from mechanics whose ports are merged, so that one sprite type has opposed uses.
+//! Invention of rules from mechanics whose ports are merged, so that one sprite type has opposed uses. One mechanic
+//! needs the type, and another uses it up, removes it, or makes it a danger or an obstacle.
 //!
 //! A [`Mechanic`](mechanic::Mechanic) consists of a few VGDL clauses about open roles, which are called its *ports*. An
 //! [`Invention`] combines mechanics and an ending, and partitions the ports: the ports in one class are merged into one

@@ -33,7 +33,8 @@ impl Verb {
 /// An invention's characteristics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
-    /// The number of ports (roles of mechanics) that are filled by types with opposed uses.
+    /// The number of ports (roles of mechanics) that are filled by types with opposed uses. Such a type is needed in
+    /// one port, and used up, removed, harmful or in the way in another.
     pub coupling: usize,
     /// The most distinctive verb.
     pub verb: Verb,

@@ -18,7 +18,8 @@ pub enum Unsound {
     Unconnected,
     /// A type is produced or carried, but nothing needs it.
     Idle,
-    /// No type has opposed uses, so no choice has a price.
+    /// No type has opposed uses (one port needs the type, and another spends, removes or fears it), so no choice has a
+    /// price.
     NoTension,
     /// The player cannot influence a moving type.
     NoAgency,
@@ -124,7 +125,8 @@ fn has_honest_goal(merged: &Merged) -> bool {
         || merged.has(Tag::Spent)
 }
 
-/// Returns `true` if the type's uses are opposed, so that using the type for one purpose has a price.
+/// Returns `true` if the type's uses are opposed, so that using the type for one purpose has a price. This is the case
+/// if one port needs the type, and another port spends or removes it, or makes it a danger or an obstacle.
 pub(crate) fn is_opposed(merged: &Merged) -> bool {
     let ports = &merged.ports;
     let across = |one: Tag, other: Tag| {

@@ -16,7 +16,8 @@ pub struct InventionSupply {
     strata: Vec<Stratum>,
 }
 
-/// The choices with a given number of mechanics.
+/// The counts for a given number of mechanics: all choices of mechanics and an ending, the choices drawn as a sample,
+/// and the drawn choices that can be built.
 #[derive(Clone, Debug, PartialEq)]
 struct Stratum {
     choices: f64,

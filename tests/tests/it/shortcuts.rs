@@ -15,7 +15,8 @@ fn play(name: &str, game: &Game, level: &Level, ticks: usize) {
     play_actions(name, game, level, (0..ticks).map(|_| *sampler.choose(&Action::ALL)));
 }
 
-/// Plays actions with and without shortcuts, and returns the last state.
+/// Plays the same actions with and without shortcuts, and checks that the two episodes are equal. Returns the last
+/// state of the episode with shortcuts. Stops early if the work limit ends either episode.
 fn play_actions(name: &str, game: &Game, level: &Level, actions: impl Iterator<Item = Action>) -> State {
     let mut state = game.start(level, Seed::from_text(name).child("chance", 0));
     let mut plain = state.clone();

@@ -8,16 +8,16 @@ use crate::verdict::Finding;
 use engine::analysis::Role;
 use engine::{Analysis, Level};
 
-/// Passes if the fraction of narrow ground averages at most [`Gates::narrow`] over the levels.
+/// Passes if the fraction of ground cells that are narrow averages at most [`Gates::narrow`] over the levels.
 ///
-/// Ground is any cell without a wall ([`Role::Wall`]), which is stationary, always blocks and cannot be
-/// removed. Ground is narrow if no 2×2 square of ground cells contains it, as in corridors, doorways and
-/// alcoves. No episodes are played. Cost: O(cells) per level.
+/// A ground cell is a cell without a wall ([`Role::Wall`]). A wall is stationary, always blocks and cannot be removed.
+/// A ground cell is narrow if no 2×2 square of ground cells contains it, as in corridors, doorways and alcoves. No
+/// episodes are played. Cost: O(cells) per level.
 #[derive(Clone, Debug)]
 pub struct OpenGround(pub Gates);
 
 impl OpenGround {
-    /// Returns the fraction of narrow ground in a level, or `None` if the level has no ground.
+    /// Returns the fraction of a level's ground cells that are narrow, or `None` if the level has no ground cells.
     pub fn narrow(analysis: &Analysis, level: &Level) -> Option<f64> {
         let game = analysis.game();
         let is_wall = |cell: &u8| game.places(*cell).iter().any(|&stype| analysis.role(stype) == Role::Wall);

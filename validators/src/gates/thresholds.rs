@@ -8,7 +8,8 @@ base::with_defaults! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[serde(default, deny_unknown_fields)]
     pub struct Gates {
-        /// `open-ground`: the maximum fraction of narrow ground, as a mean over the levels.
+        /// `open-ground`: the maximum fraction of ground cells that no 2 × 2 square of ground contains, as a mean over
+        /// the levels.
         pub narrow: f64 = 0.45,
         /// `not-instant`: the minimum number of ticks in the shortest known win of a level after the first.
         pub least_win: usize = 25,

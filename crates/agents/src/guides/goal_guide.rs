@@ -38,7 +38,7 @@ struct Targets {
 #[derive(Clone, Debug)]
 struct Target {
     stype: SpriteType,
-    /// The resource that the target requires, with the required amount.
+    /// The resource that the target requires, with the required amount; `None` if it requires none.
     needs: Option<(SpriteType, i32)>,
 }
 

@@ -55,7 +55,7 @@ struct Sighting {
     count: usize,
     /// The squared distance, in pixels, from the avatar to the nearest sprite of the last type that has any sprites.
     /// Sprites of other types may be nearer, because the reference iterates over the types and keeps only the last
-    /// result.
+    /// result. `None` if there is no such sprite.
     nearest: Option<f64>,
 }
 

@@ -40,7 +40,7 @@ const PUSH_COST: u32 = 5;
 pub struct TouchEverything {
     choices: Sampler,
     beliefs: Beliefs,
-    /// The last observation, and the actions chosen for it.
+    /// The last observation, and the actions chosen for it; `None` at the start of an episode.
     last: Option<(Observation, Vec<Action>)>,
     /// The number of key presses towards each kind since the kind was last touched.
     presses: BTreeMap<String, u32>,

@@ -247,8 +247,8 @@ fn no_game_in(folder: &Path) -> Failure {
     let games = sorted_entries(&below).unwrap_or_default();
     match games.iter().find(|game| game.join("game.vgdl").is_file()) {
         Some(first) => malformed!(
-            "{name}: this folder contains no game, but {} does: pass that folder to use all its games, or \
-             one game, such as {}",
+            "{name}: not a game folder, but its folder {} contains games: pass that folder to use all of \
+             them, or one game, such as {}",
             below.in_message(),
             first.in_message()
         ),

@@ -28,8 +28,9 @@ pub(crate) struct Proposal {
 }
 
 impl Reference {
-    /// Proposes a game with `levels` levels. Costs microseconds for the grammar, milliseconds for the kernels, and up
-    /// to four million forward-model calls per level for the inventor.
+    /// Proposes a game with `levels` levels. Returns `None` if the kernels or the inventor fail to produce a game.
+    /// Costs microseconds for the grammar, milliseconds for the kernels, and up to four million forward-model calls per
+    /// level for the inventor.
     pub(crate) fn propose(self, levels: usize, seed: Seed) -> Option<Proposal> {
         let seed = seed.child(self.name(), 1);
         match self {

@@ -26,7 +26,8 @@ pub struct DesignerScore {
     pub drafts: u64,
     /// The rates, from the first step to the last.
     pub rates: Vec<Rate>,
-    /// The median distance to the nearest known game, over all drafts whose rules compile.
+    /// The median distance to the nearest known game, over all drafts whose rules compile; `None` if there are no such
+    /// drafts or no known games.
     pub distance: Option<f64>,
     /// The costs per accepted game.
     pub costs: Vec<CostPerGame>,

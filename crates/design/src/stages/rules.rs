@@ -15,7 +15,7 @@ pub(super) const GAME_FILE: &str = "game.vgdl";
 pub(crate) struct Rules {
     pub(crate) source: String,
     pub(crate) game: Game,
-    /// The nearest known game.
+    /// The nearest known game; `None` if no game is known.
     pub(crate) nearest: Option<Nearest>,
 }
 

@@ -58,8 +58,8 @@ pub fn one_in_words(source: Source<'_>, problem: &Diagnostic) -> String {
     }
 }
 
-/// Returns the help for a problem in the text with the given name. The name replaces the placeholder in the engine's
-/// help, so that the commands work as printed.
+/// Returns the help for a problem in the text with the given name; `None` if the problem has no help. The name replaces
+/// the placeholder in the engine's help, so that the commands work as printed.
 #[must_use]
 pub fn help(name: &str, problem: &Diagnostic) -> Option<String> {
     let help = problem.help.as_ref()?;

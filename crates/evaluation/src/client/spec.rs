@@ -56,7 +56,7 @@ impl ModelSpec {
             return Err(EvaluationError::Malformed(problem));
         }
         let own = provider.own_url();
-        let url = base_url.or(own).expect("only a provider without a server of its own needs a base URL");
+        let url = base_url.or(own).expect("the provider has a server of its own, or a base URL was given");
         let mut server = Server::parse(url)?;
         server.own = own.is_some_and(|own| Server::parse(own).is_ok_and(|own| own.host == server.host));
         Ok(ModelSpec { provider, model: model.to_owned(), server })

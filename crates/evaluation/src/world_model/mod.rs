@@ -1,5 +1,5 @@
-//! Examinations in building world models. The examined player (the *examinee*) studies recordings of a masked game, or
-//! explores the game, and then writes the game in VGDL.
+//! Examinations that test whether a player can build a world model. The examined player (the *examinee*) studies
+//! recordings of a masked game, or explores the game, and then writes the game in VGDL.
 //!
 //! A [`WorldModelTask`] contains a game with masked names and characters, recordings for the examinee, and held-out
 //! recordings. [`examine`] questions the examinee, reports the diagnostics of unusable games to it, and scores the game

@@ -1,4 +1,5 @@
-//! Examinations in building world models.
+//! Tests of examinations in which a player has to write a game (a world model) from recordings or from its own
+//! exploration.
 
 use evaluation::client::{ChatMessage, ChatReply, Finish};
 use evaluation::player::mailbox::Address;

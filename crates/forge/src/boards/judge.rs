@@ -67,7 +67,8 @@ pub(super) struct Judge<'a> {
     pub(super) budget: &'a BoardBudget,
     pub(super) variation: &'a BoardVariation<'a>,
     pub(super) ablations: &'a Ablations,
-    /// The judges of those gates (criteria for whole games) that can be applied to a single board.
+    /// The judges of those gates (criteria for whole games) that can be applied to a single board; `None` if no gates
+    /// were requested.
     pub(super) panel: Option<Panel>,
     pub(super) seed: Seed,
 }
@@ -79,7 +80,7 @@ pub(super) struct Judged {
     pub(super) calls: u64,
     /// `true` if a win search was run.
     pub(super) is_searched: bool,
-    /// The win of a feasible board, with its measures.
+    /// The win of a feasible board, with its measures; `None` for an infeasible board.
     pub(super) won: Option<(Episode, BoardMeasures)>,
 }
 

@@ -26,7 +26,7 @@ pub struct BoardOrder {
     /// The minimum and maximum number of ticks in the shortest win.
     pub ticks: (usize, usize),
     /// The criteria whose gates the board should meet on its own, as far as a single level can. Gates are criteria for
-    /// whole games.
+    /// whole games. `None` if the board need not meet any gate.
     pub gates: Option<CheckedCriteria>,
 }
 

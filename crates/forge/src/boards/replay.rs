@@ -22,7 +22,7 @@ pub(super) struct Events {
     /// The longest stretch of the win in which no interaction of `firsts` is executed, as a fraction of the win's
     /// ticks.
     pub(super) dead: f64,
-    /// The mean number of cells swept by self-moving sprites.
+    /// The mean number of cells swept by self-moving sprites; `None` without such sprites.
     pub(super) sweep: Option<f64>,
 }
 

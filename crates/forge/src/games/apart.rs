@@ -56,7 +56,7 @@ impl Variation for FarInventions<'_> {
     type Candidate = Invention;
 
     /// Returns the first draw that is far from every known game. If none of the [`DRAWS`] draws is far enough, returns
-    /// the farthest.
+    /// the farthest, or `None` if no draw yields a game.
     fn create(&self, seed: Seed) -> Option<Invention> {
         let mut farthest: Option<(f64, Invention)> = None;
         for draw in 0..DRAWS {

@@ -181,7 +181,8 @@ impl Maker<'_> {
 }
 
 /// Returns the axes of an archive of inventions: the number of ports (roles of mechanics) filled by types with opposed
-/// uses, the player's main activity, and the fraction of types that move by themselves.
+/// uses, the player's main activity, and the fraction of types that move by themselves. A type has opposed uses if one
+/// port needs it, and another spends or removes it, or makes it a danger or an obstacle.
 fn axes() -> Vec<Axis> {
     vec![
         Axis::new("coupling", (2.0, 10.0), 4),

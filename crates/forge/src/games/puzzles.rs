@@ -97,7 +97,8 @@ pub(crate) enum PuzzleGenerator<'a> {
 
 impl PuzzleGenerator<'_> {
     /// Generates the level for a seed, with a winning sequence of actions. The actions win with the random draws of the
-    /// seed `of_win`, or as long as no wandering sprite is in the way.
+    /// seed `of_win`, or as long as no wandering sprite is in the way. Returns `None` if the seed yields no level with
+    /// a win.
     pub(crate) fn create_solved(
         &self,
         game: &Game,

@@ -55,9 +55,9 @@ pub struct LevelOrder {
     /// overrides the configuration's difficulty.
     pub config: LevelConfig,
     /// The difficulty of each level, measured by the ladder in the criteria, which is a list of reference players of
-    /// increasing strength.
+    /// increasing strength; `None` if no difficulty is requested.
     pub difficulty: Option<Difficulty>,
-    /// The minimum number of ticks in the shortest win found.
+    /// The minimum number of ticks in the shortest win found; `None` for no minimum.
     pub min_solution: Option<usize>,
     /// The rules that the win must use. All of them are required.
     pub uses: Vec<RuleRef>,

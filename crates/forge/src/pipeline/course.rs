@@ -1,4 +1,4 @@
-//! The stage that finds a level for each position in a game, and the stages after each found level.
+//! The stage that finds a game's levels, one for each position, and the stages that check the levels found so far.
 
 use super::game::Trial;
 use super::level::{Place, leaves_something};
@@ -150,7 +150,7 @@ impl<'a> Begun<'a> {
 }
 
 /// Replaces a first level that leaves no new mechanic for later levels. Tries the next candidates until one leaves such
-/// a mechanic.
+/// a mechanic; `None` if none of them does.
 pub(super) fn another_introduction(
     levels: &Levels<'_>,
     game: &Game,

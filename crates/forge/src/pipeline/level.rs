@@ -62,7 +62,7 @@ impl LevelTrial<'_> {
 
     pub(super) const OPEN_GROUND: Stage<Self> = Stage {
         name: "open ground",
-        purpose: "in a course, rejects a level with so much narrow ground that the game would fail even \
+        purpose: "in a course, rejects a level with so many narrow cells that the game would fail even \
                   if no other level had any",
         criteria: CriterionSet::of(&[Criterion::OpenGround]),
         ..Stage::once(Self::refuse_narrow_ground)

@@ -23,7 +23,7 @@ impl Place<'_> {
         Refusal::Because(format!("no level {}", self.number).into())
     }
 
-    /// Returns the first passing candidate, starting with candidate number `from`.
+    /// Returns the first passing candidate, starting with candidate number `from`; `None` if no candidate passes.
     pub(super) fn find(&self, from: u32, tally: &mut Tally) -> Option<FoundLevel> {
         let brief = PlaceBrief {
             number: self.number,

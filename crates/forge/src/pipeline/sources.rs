@@ -70,7 +70,7 @@ pub trait BoardSource: Sync {
         &[]
     }
 
-    /// Returns the required tier of the level at a position.
+    /// Returns the required tier of the level at a position; `None` if the source's levels have no required tiers.
     fn tier(&self, _number: u32) -> Option<Tier> {
         None
     }

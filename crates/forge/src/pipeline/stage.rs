@@ -17,7 +17,7 @@ pub(super) struct Stage<T> {
     pub(super) criteria: CriterionSet,
     /// The other reasons for which the stage can reject a candidate. A final `N` in a reason represents any number.
     pub(super) reasons: &'static [&'static str],
-    /// The part that the stage can replace instead of rejecting the candidate.
+    /// The part that the stage can replace instead of rejecting the candidate; `None` if it replaces nothing.
     pub(super) replaces: Option<&'static str>,
     pub(super) run: Run<T>,
 }

@@ -55,6 +55,7 @@ impl Source {
     }
 
     /// Draws levels until enough of them are verified, and returns the one whose rank among them fits the difficulty.
+    /// Returns `None` if no drawn level is verified.
     pub(super) fn make(
         &self,
         stream: &Stream,

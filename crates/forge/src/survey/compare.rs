@@ -91,9 +91,10 @@ pub struct Line {
     pub theirs: Group,
     /// The mean of `ours` minus the mean of `theirs`; `None` unless both groups have a value.
     pub difference: Option<f64>,
-    /// The 95% bootstrap interval of the difference, over the games of each group.
+    /// The 95% bootstrap interval of the difference, over the games of each group; `None` without a difference.
     pub interval: Option<[f64; 2]>,
     /// The difference in points: percent of all games, of the scale from 0 to 1, or of the other group's mean count.
+    /// `None` without a difference, or if that mean count is 0.
     pub points: Option<f64>,
     /// `true` if `ours` is not significantly worse, which means that the upper end of the interval is not below 0.
     pub level: Option<bool>,

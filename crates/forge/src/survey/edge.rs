@@ -35,7 +35,7 @@ pub struct Edge {
     /// a fraction of the level's score range. The two players' episodes are paired by their random seeds. `None` if no
     /// level has differing scores.
     pub score: Option<f64>,
-    /// The 95% bootstrap interval of the gain in score, over episodes.
+    /// The 95% bootstrap interval of the gain in score, over episodes; `None` without such a gain.
     pub score_interval: Option<[f64; 2]>,
     /// `true` if the difference in win rate or in score is as large as the criteria require and significantly above 0.
     pub pays: bool,
@@ -115,7 +115,7 @@ impl Edge {
     }
 
     /// Computes the advantage like [`Edge::of`], but for the strongest of the held-out players, which no search has
-    /// used.
+    /// used. Returns `None` if no held-out player looks ahead, or if every player on the ladder does.
     pub(crate) fn held_out(
         analysis: &Analysis,
         levels: &[Level],

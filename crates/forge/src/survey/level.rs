@@ -20,7 +20,7 @@ pub struct SurveyedLevel {
     /// The judges' findings.
     pub report: Report,
     /// The results of the ladder (reference players of increasing strength) on the level, and the difficulty derived
-    /// from them. The seeds have not been used in any search.
+    /// from them. The seeds have not been used in any search. `None` if no ladder played the level.
     pub ladder: Option<Ladder>,
     /// The measures of the level's witness; `None` without a witness.
     pub measures: Option<Measures>,
@@ -38,7 +38,7 @@ impl SurveyedLevel {
     }
 
     /// Returns a measure by name: `ticks`, `pushes`, `branching`, `mechanics`, `pressure`, `skill`, or a layout
-    /// measure.
+    /// measure; `None` if the level lacks the measure.
     pub(crate) fn measure(&self, name: &str) -> Option<f64> {
         let play = self.measures.as_ref().and_then(|measures| match name {
             "ticks" => Some(measures.ticks as f64),

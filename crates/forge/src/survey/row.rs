@@ -38,15 +38,16 @@ pub struct GameRow {
     pub types: u64,
     /// The number of types counted in `types` that occur on the board or as a resource in a recorded episode.
     pub there: u64,
-    /// The advantage of the strongest player over the best player that does not look ahead.
+    /// The advantage of the strongest player over the best player that does not look ahead; `None` if there are no such
+    /// players.
     pub edge: Option<Edge>,
     /// The rank correlation between the reference players' positions on the ladder (from weak to strong) and their
-    /// results.
+    /// results; `None` if no ladder played.
     pub order: Option<f64>,
     /// The number of distinct interactions that the wins execute in total, not counting guards
-    /// ([`PlayMeasures::mechanics`]).
+    /// ([`PlayMeasures::mechanics`]); `None` if no win was found.
     pub mechanics: Option<u64>,
-    /// The despair on the way to a win ([`PlayMeasures::drama`]).
+    /// The despair on the way to a win ([`PlayMeasures::drama`]); `None` if no win was found.
     pub drama: Option<f64>,
     /// The number of forward-model calls in all searches and episodes.
     pub calls: u64,

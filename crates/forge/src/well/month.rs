@@ -67,10 +67,11 @@ pub struct WellMonth {
     pub used: u32,
     /// The number of candidates per drawn rule set.
     pub yielded: f64,
-    /// The distances between the new games and their nearest predecessors, including known games.
+    /// The distances between the new games and their nearest predecessors, including known games; `None` if the month
+    /// has no new games.
     pub nearest: Option<Nearest>,
     /// The estimated unseen probability mass of rules (Good–Turing): the probability that the next rules are at a
-    /// distance of at least 0.3 from all rules drawn so far.
+    /// distance of at least 0.3 from all rules drawn so far. `None` if no rules have passed.
     pub unseen_near: Option<f64>,
     /// Like [`WellMonth::unseen_near`], but for a distance of at least 0.4.
     pub unseen_far: Option<f64>,

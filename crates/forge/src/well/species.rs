@@ -24,7 +24,7 @@ impl Species {
     }
 
     /// Returns the part that occurs in the most games, with its fraction of `games`. Ties go to the name that comes
-    /// first alphabetically.
+    /// first alphabetically. Returns `None` if no part was counted.
     pub(super) fn top(&self, games: u32) -> Option<Top> {
         let most = self.counts.values().max()?;
         let (name, count) = self.counts.iter().find(|(_, count)| *count == most)?;

@@ -34,7 +34,8 @@ pub struct Animation {
     before: Vec<Colour>,
     /// The pixels of the last frame as indices into the palette.
     shown: Vec<u8>,
-    /// The next frame to write. Each frame waits for its successor, because the last frame lasts longer.
+    /// The next frame to write. Each frame waits for its successor, because the last frame lasts longer. `None` before
+    /// the first frame.
     pending: Option<::gif::Frame<'static>>,
     size: (u16, u16),
     /// The duration of a frame in hundredths of a second.

@@ -213,7 +213,7 @@ pub(crate) fn mark(at: u16) -> &'static [Part] {
 /// The image that a game specifies for a type, or that the type's name suggests.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hint<'a> {
-    /// The type's role, in composed games.
+    /// The type's role, in composed games; `None` in other games.
     pub(crate) role: Option<&'a str>,
     /// The adjective, if the type represents a different state of a sprite.
     adjective: Option<&'a str>,
@@ -273,9 +273,9 @@ impl<'a> Hint<'a> {
         }
     }
 
-    /// Returns the figure for the type's state. A prize keeps its own figure and gets a sign for the state instead,
-    /// because a fallen prize does not look like a fallen bridge. Open objects other than doors are treated in the same
-    /// way.
+    /// Returns the figure for the type's state; `None` if the type keeps its own figure. A prize keeps its own figure
+    /// and gets a sign for the state instead, because a fallen prize does not look like a fallen bridge. Open objects
+    /// other than doors are treated in the same way.
     fn state(self) -> Option<u16> {
         let is_door = || noun(self.noun).is_none_or(|at| DOORS.contains(&TABLE[usize::from(at)].name));
         let adjective = self.adjective.filter(|_| self.role != Some("prize"))?;
@@ -314,7 +314,7 @@ fn named(sign: &str, word: &str) -> Option<u16> {
 }
 
 /// Returns the table entry for a noun in camel case. Tries the whole noun, then its last word, and then the longest
-/// suffix of that word that is in the table.
+/// suffix of that word that is in the table. Returns `None` if the table contains none of them.
 fn noun(noun: &str) -> Option<u16> {
     let noun = noun.trim_end_matches(|letter: char| letter.is_ascii_digit() || letter == '_');
     let last = noun.rfind(|letter: char| letter.is_ascii_uppercase()).unwrap_or(0);

@@ -24,7 +24,7 @@ pub struct Look {
     /// The shape that is drawn: a figure if the game specifies an image, and the symbol chosen from the rules (the
     /// glyph) otherwise.
     pub form: Form,
-    /// The sign for the type's state, as an index into the table of figures.
+    /// The sign for the type's state, as an index into the table of figures; `None` if the tile needs no sign.
     pub(crate) mark: Option<u16>,
     /// The face's expression, if the form has a face.
     pub mood: Mood,
@@ -78,7 +78,7 @@ pub struct Looks {
     /// The meaning of each type in legends.
     meanings: Vec<String>,
     prospects: Prospects,
-    /// The floor of a composed game.
+    /// The floor of a composed game; `None` for other games.
     floor: Option<SpriteType>,
     /// The direction of each type's signs according to the rules.
     fronts: Vec<Option<Point>>,
@@ -177,12 +177,14 @@ impl Looks {
         &self.meanings[stype.index()]
     }
 
-    /// Returns the floor of a composed game, whose levels omit it from cells where it would be hidden.
+    /// Returns the floor of a composed game, whose levels omit it from cells where it would be hidden; `None` for other
+    /// games.
     pub(crate) fn floor(&self) -> Option<SpriteType> {
         self.floor
     }
 
-    /// Returns a sign's direction according to the rules. The sign's sprites may turn during play.
+    /// Returns a sign's direction according to the rules; `None` for types that are not signs. The sign's sprites may
+    /// turn during play.
     pub(crate) fn front(&self, stype: SpriteType) -> Option<Point> {
         self.fronts[stype.index()]
     }

@@ -85,7 +85,7 @@ fn is_resource(analysis: &Analysis, stype: SpriteType) -> bool {
 
 /// Describes how a motionless type affects other sprites that reach it. It may remove sprites that must disappear for
 /// the win, or change all sprites of a type. Rules about sprites that neither move nor are shot are omitted, because
-/// such sprites cannot reach the type.
+/// such sprites cannot reach the type. Returns `None` if the type has no such effect.
 fn use_of_others(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let game = analysis.game();
     let brought = |taken: &&SpriteType| {
@@ -166,7 +166,8 @@ fn blocks(analysis: &Analysis, stype: SpriteType) -> bool {
     !avatars.is_empty() && avatars.iter().all(|avatar| analysis.touch(avatar.stype, stype).blocks)
 }
 
-/// Describes a lock's requirement: `needs 3 shell`, `opened by bell`, `only as laden`.
+/// Describes a lock's requirement: `needs 3 shell`, `opened by bell`, `only as laden`; `None` if the type is not a
+/// lock.
 fn requirement(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let game = analysis.game();
     let lock = analysis.locks().iter().find(|lock| lock.stype == stype)?;
@@ -368,7 +369,8 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> String {
 }
 
 /// Describes the harm that a moving type causes other than by touching the avatar. Such a type harms things that
-/// matter, or makes sprites that do harm. An enemy may also take things whose use is unknown.
+/// matter, or makes sprites that do harm. An enemy may also take things whose use is unknown. Returns `None` if the
+/// type causes no such harm.
 fn mischief(analysis: &Analysis, stype: SpriteType, is_enemy: bool) -> Option<String> {
     let spoilt = remarks::spoilt_by(analysis, stype);
     let matters = |other: &SpriteType| {

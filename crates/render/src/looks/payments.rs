@@ -100,7 +100,8 @@ fn asks(encounter: &Encounter, own: Side, resource: SpriteType) -> Option<i32> {
     }
 }
 
-/// Describes the consequences of an encounter: `makes leopard`, `makes you laden`.
+/// Describes the first consequence of an encounter that has a description: `makes leopard`, `makes you laden`; `None`
+/// if no consequence has one.
 fn outcome(analysis: &Analysis, encounter: &Encounter, own: Side) -> Option<String> {
     let name = |stype: &SpriteType| analysis.game().name(*stype);
     encounter.effects.iter().find_map(|effect| match effect {
@@ -171,7 +172,7 @@ fn is_barrier(analysis: &Analysis, stype: SpriteType) -> bool {
     blocks && analysis.facts(stype).motion == Motion::Still
 }
 
-/// Describes the uses: `spent at gong: makes leopard`, `used at bakeHouse, gate`.
+/// Describes the uses: `spent at gong: makes leopard`, `used at bakeHouse, gate`; `None` for an empty list.
 fn told(analysis: &Analysis, uses: &[Use]) -> Option<String> {
     let verb = if uses.iter().all(|used| used.spent) { "spent at" } else { "used at" };
     let places: Vec<SpriteType> = uses.iter().map(|used| used.at).collect();
@@ -187,8 +188,8 @@ fn told(analysis: &Analysis, uses: &[Use]) -> Option<String> {
     })
 }
 
-/// Describes the uses of a type that the avatar collects: `needed for door`, `ammunition for dart`,
-/// `spent at gong: makes leopard`.
+/// Describes the uses of a type that the avatar collects: `needed for door`, `ammunition for dart`, `spent at gong:
+/// makes leopard`; `None` if it has no use.
 pub(super) fn purposes(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let needed = needed_for(analysis, stype);
     let opened: Vec<SpriteType> = own_locks(analysis, stype)
@@ -222,7 +223,8 @@ pub(super) fn purposes(analysis: &Analysis, stype: SpriteType) -> Option<String>
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// Describes the effect of a resource at a type: `key here makes leopard`, `takes your coin`.
+/// Describes the effect of a resource at a type: `key here makes leopard`, `takes your coin`; `None` if no resource has
+/// an effect there.
 pub(super) fn paid_here(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let effect = |(encounter, own): (&Encounter, Side)| {
         let Precondition::Holds(side, resource, amount) = encounter.precondition else { return None };

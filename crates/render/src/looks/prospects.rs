@@ -51,7 +51,7 @@ impl Prospects {
         self.needed.iter().copied()
     }
 
-    /// Describes the time left: `89 left`, or `survive 40`.
+    /// Describes the time left: `89 left`, or `survive 40`; `None` if the game ends at no particular tick.
     pub(crate) fn time(&self, state: &State) -> Option<String> {
         let (limit, wins) = self.deadline?;
         let left = limit.saturating_sub(state.tick()).max(0);

@@ -193,8 +193,8 @@ fn switches(analysis: &Analysis, stype: SpriteType) -> Vec<SpriteType> {
     if kept { Vec::new() } else { analysis.game().sprite_types().filter(opens).collect() }
 }
 
-/// Describes how the player can remove a type that must disappear for the win: `catch it to win`, `lead it to
-/// nest to win`.
+/// Describes how the player can remove a type that must disappear for the win: `catch it to win`, `lead it to nest to
+/// win`. Returns `None` for any other type, and if no way to remove it is known.
 pub(super) fn win_by_removing(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     if !wins::is_to_go(analysis, stype) {
         return None;
@@ -274,8 +274,8 @@ fn is_lost(analysis: &Analysis, stype: SpriteType, sink: &Sink) -> bool {
     !wins && (is_spoilt || is_gone || is_useless || is_in_vain(analysis, sink.partner, stype))
 }
 
-/// Describes the motionless types that a pushed sprite changes, fills or opens, or that use up the pushed sprite:
-/// `push it onto drain`, `can be pushed, lost at hole`.
+/// Describes the motionless types that a pushed sprite changes, fills or opens, or that use up the pushed sprite: `push
+/// it onto drain`, `can be pushed, lost at hole`. Returns `None` if there are no such types.
 pub(super) fn destinations(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     let (lost, good): (Vec<&Sink>, Vec<&Sink>) =
         sinks(analysis, stype).partition(|sink| is_lost(analysis, stype, sink));
@@ -306,8 +306,9 @@ fn pushed_into(
     analysis.pushables().iter().filter(sunk).map(|pushable| pushable.stype).collect()
 }
 
-/// Describes where to push sprites that change or fill a type, and states whether the push brings a win
-/// closer.
+/// Describes the sprites to push onto a type, and states whether the push brings a win closer: `push crate here to
+/// win`, `swallows crate`. For a type with short-lived sprites, returns `soon gone`. Returns `None` if nothing can be
+/// pushed onto the type.
 pub(super) fn socket(analysis: &Analysis, stype: SpriteType) -> Option<String> {
     if analysis.facts(stype).fleeting {
         return Some("soon gone".to_owned());

@@ -80,7 +80,7 @@ fn wants_few(condition: &Condition) -> bool {
     matches!(condition, Condition::AtMost(..) | Condition::Exactly(_, ..=0))
 }
 
-/// Returns the limit of a sprite count.
+/// Returns the limit in a condition on a number of sprites; `None` for a condition on the tick.
 fn limit(condition: &Condition) -> Option<i32> {
     match condition {
         Condition::AtMost(_, limit) | Condition::AtLeast(_, limit) | Condition::Exactly(_, limit) => {
@@ -255,7 +255,8 @@ fn terms(analysis: &Analysis, encounter: &Encounter, avatar: Side) -> Terms {
     }
 }
 
-/// Returns the condition for a transformation that depends on a number of sprites.
+/// Returns the condition for a transformation that depends on a number of sprites; `None` for any other effect, and for
+/// conditions that legends cannot express.
 fn by_count(analysis: &Analysis, encounter: &Encounter) -> Option<Terms> {
     let game = analysis.game();
     let line = &game.description().interactions[encounter.line];
@@ -331,8 +332,9 @@ pub(super) fn by_touch(analysis: &Analysis, avatar: SpriteType, stype: SpriteTyp
     (!terms.is_empty()).then(|| terms.swap_remove(best.unwrap_or(0)))
 }
 
-/// Returns the avatar types that contribute to a win by touching a sprite. Also returns the condition, if it is the
-/// same for all of them.
+/// Returns the avatar types that contribute to a win by touching a sprite of `stype`, and the condition under which the
+/// touch counts. If the touch always counts for some types, only these types are returned. If the conditions differ,
+/// [`Terms::Sometimes`] is returned as the condition. Returns `None` if no avatar type contributes.
 pub(super) fn able(analysis: &Analysis, stype: SpriteType) -> Option<(Vec<SpriteType>, Terms)> {
     let avatars = analysis.avatars().iter().map(|avatar| avatar.stype);
     let found: Vec<(SpriteType, Terms)> =

@@ -327,7 +327,7 @@ fn problem(frozen: &FrozenGame, root: Seed, recipe: &Recipe) -> Option<String> {
         return Some(format!("`{id}` does not match its card"));
     }
     if levels.is_empty() || levels.len() != witnesses.len() || levels.len() != card.levels.len() {
-        return Some(format!("`{id}` does not have a witness and a card entry for each level"));
+        return Some(format!("`{id}` has no level, or not exactly one witness and one card entry per level"));
     }
     if difficulties.len() != card.levels.iter().filter(|level| level.ladder.is_some()).count() {
         return Some(format!("`{id}` does not have one difficulty per ladder"));
@@ -512,7 +512,7 @@ mod tests {
         check(|game| game.text = "BasicGame".into(), same, Some("isn't a valid game"));
         check(|game| game.text = tests::FETCH.into(), same, Some("does not match its card"));
         check(|game| game.levels[0] = "x".into(), same, Some("level 0: not a level of the game"));
-        check(|game| drop(game.witnesses.pop()), same, Some("a witness and a card entry for each level"));
+        check(|game| drop(game.witnesses.pop()), same, Some("one witness and one card entry per level"));
         check(
             |game| game.difficulties.push(validators::Difficulty::Easy),
             same,

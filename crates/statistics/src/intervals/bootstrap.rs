@@ -43,7 +43,8 @@ pub fn bootstrap<T: Copy>(
 }
 
 /// Returns the percentile interval for the mean of `ours` minus the mean of `theirs`. The method is the same as in
-/// [`bootstrap`], but with a separate sample for each side. The sample from `ours` is drawn first.
+/// [`bootstrap`], but with a separate sample for each side. The sample from `ours` is drawn first. Returns `None` in
+/// the same cases as [`bootstrap`], including if only one side has no values.
 ///
 /// ```
 /// use infinite_arcade_statistics::bootstrap_difference;

@@ -47,7 +47,8 @@ pub fn rate_over_games(games: &[(u64, u64)], level: f64) -> Option<RateOverGames
 
 /// Returns the mean of fractions from several games, with a confidence interval that applies to similar games. The
 /// fractions can be the win rates of equally weighted levels, for example. The method is the same as in
-/// [`rate_over_games`]. `games` contains the sum and the number of fractions for each game.
+/// [`rate_over_games`]. `games` contains the sum and the number of fractions for each game. Returns `None` if fewer
+/// than two games have fractions, if a sum is out of range, or if `level` is not within 0..1.
 ///
 /// ```
 /// use infinite_arcade_statistics::share_over_games;

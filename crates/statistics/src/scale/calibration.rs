@@ -109,7 +109,7 @@ impl Calibration {
     }
 
     /// Calibrates a first release with given spreads (standard deviations). Only abilities and difficulties are
-    /// estimated.
+    /// estimated. Returns `None` in the same cases as [`Calibration::new`], and if the estimation fails numerically.
     pub fn with_spreads(
         examinees: &[Examinee],
         games: &[GamePlays],
@@ -267,7 +267,8 @@ fn checked<'a>(
     (is_valid && is_enough).then(|| Model::new(examinees, games, abilities))
 }
 
-/// Returns the spreads (standard deviations) with the maximum posterior density after integrating out all effects.
+/// Returns the spreads (standard deviations) with the maximum posterior density after integrating out all effects;
+/// `None` if the density cannot be computed at `start`.
 pub(super) fn spreads_of(model: &Model<'_>, start: Spreads) -> Option<Spreads> {
     let mut near: Option<Modes> = None;
     let mut density = |parameters: &[f64]| {

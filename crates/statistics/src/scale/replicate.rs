@@ -22,7 +22,7 @@ pub struct Correlated {
 impl Calibration {
     /// Simulates the results of the examinees (reference players) on new games drawn from the model, and returns the
     /// spreads (standard deviations) estimated from those results. The new games have the same numbers of levels and
-    /// episodes as `games`. Cost: one [`Calibration::new`].
+    /// episodes as `games`. Returns `None` if the estimation fails. Cost: one [`Calibration::new`].
     pub fn replicate(&self, games: &[GamePlays], seed: u64) -> Option<Spreads> {
         let mut draws = Draws::new(seed);
         let model = Model::new(&self.examinees, games, None);

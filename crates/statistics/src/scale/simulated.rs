@@ -232,7 +232,8 @@ impl Linked {
         self.simulator.person(&self.second, &self.month, dimension, case)
     }
 
-    /// Estimates an ability from results on the second month, and compares the estimate with the true ability.
+    /// Estimates an ability from results on the second month, and compares the estimate with the true ability; `None`
+    /// if there are no episodes.
     fn trial(&self, games: &[PlayedGame], dimension: Dimension, ability: f64) -> Option<AbilityTrial> {
         let truth = ability - self.first.mean(dimension);
         let found = super::ability(games, MismatchPrior::default(), self.month.link[side(dimension)])?;
@@ -259,8 +260,8 @@ pub fn link_trial(plan: &Plan, shift: f64, drift: f64, seed: u64) -> Option<Link
     })
 }
 
-/// Calibrates two months, and simulates `persons` players per case on the second month. Returns the results
-/// by case.
+/// Calibrates two months, and simulates `persons` players per case on the second month. Returns the results by case;
+/// `None` if a month cannot be calibrated or an ability cannot be estimated.
 pub fn ability_trials(
     plan: &Plan,
     dimension: Dimension,
@@ -285,8 +286,8 @@ pub struct AdaptiveTrial {
     pub adaptive: Vec<AbilityTrial>,
 }
 
-/// Calibrates two months, and simulates players with each ability and mismatch on the second month. Returns the
-/// results by case.
+/// Calibrates two months, and simulates players with each ability and mismatch on the second month. Returns the results
+/// by case; `None` if a month cannot be calibrated or an ability cannot be estimated.
 ///
 /// The first design spreads `episodes` episodes over the games. The second design chooses episodes
 /// adaptively, and yields a result for each number in `counts`. The numbers must be in ascending order.

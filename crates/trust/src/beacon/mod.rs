@@ -25,7 +25,7 @@ pub struct Drawn {
     pub round: Round,
     /// The 32-byte random value.
     pub value: Digest,
-    /// The signature whose hash is the value. Only drand rounds have such a signature.
+    /// The signature whose hash is the value. `None` for sources other than drand, whose rounds have no such signature.
     pub proof: Option<Proof>,
 }
 
@@ -35,7 +35,7 @@ pub struct Drawn {
 pub struct Proof {
     /// The signature as hexadecimal digits.
     pub signature: String,
-    /// The previous round's signature. In chained networks, the signed message includes it.
+    /// The previous round's signature, which the signed message includes in chained networks; `None` in other networks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub previous_signature: Option<String>,
     /// The facts about the network, if this crate does not name the network.

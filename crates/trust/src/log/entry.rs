@@ -17,7 +17,7 @@ pub enum Entry {
         version: u32,
         /// The digest of the set's file.
         digest: Digest,
-        /// The digest of the previous set.
+        /// The digest of the previous set; `None` for the first set.
         previous: Option<Digest>,
     },
     /// A commitment to a release's secret. The commitment must be logged before the release is minted.
@@ -28,10 +28,10 @@ pub enum Entry {
         commitment: Digest,
         /// The digest of the recipe covered by the commitment.
         recipe: Digest,
-        /// The previous release's root.
+        /// The previous release's root; `None` for the first release.
         parent: Option<Digest>,
-        /// The round of public randomness that the recipe uses. The round's value must still be unknown when
-        /// the commitment is logged.
+        /// The round of public randomness that the recipe uses; `None` if it uses none. The round's value must still be
+        /// unknown when the commitment is logged.
         beacon: Option<Round>,
     },
     /// A published public random value.
@@ -40,7 +40,7 @@ pub enum Entry {
         round: Round,
         /// The 32-byte random value.
         value: Digest,
-        /// The round's signature, required for drand values.
+        /// The round's signature, required for drand values; `None` for other sources.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         proof: Option<Proof>,
     },
@@ -50,11 +50,11 @@ pub enum Entry {
         release: String,
         /// The release's root.
         root: Digest,
-        /// The previous release's root.
+        /// The previous release's root; `None` for the first release.
         parent: Option<Digest>,
         /// The release's commitment, if the release is sealed (its seed and witnesses are withheld).
         commitment: Option<Digest>,
-        /// The public random value mixed into the release's seed.
+        /// The public random value mixed into the release's seed; `None` if there is none.
         beacon: Option<Digest>,
         /// The digest of the signed statement about the release, if any.
         statement: Option<Digest>,
@@ -127,7 +127,7 @@ pub struct ResultRow {
     pub rate: f64,
     /// The 95% interval of the win rate.
     pub interval: (f64, f64),
-    /// The mean score.
+    /// The mean score; `None` without finished episodes.
     pub score: Option<f64>,
 }
 

@@ -31,7 +31,7 @@ pub struct Checkpoint {
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Signature {
     name: String,
-    /// The first bytes of the key's hash, followed by the signature.
+    /// The four bytes that identify the signer ([`key_hash`]), followed by the signature.
     bytes: Vec<u8>,
 }
 
@@ -51,7 +51,8 @@ pub fn check_name(name: &str) -> Result<(), TrustError> {
     }
 }
 
-/// Returns the first bytes of a signature, which identify the signer.
+/// Returns the four bytes with which a signature line starts. They are the start of a hash of the signer's name, the
+/// signature type and the key.
 fn key_hash(name: &str, kind: u8, key: &PublicKey) -> [u8; 4] {
     let hash =
         Sha256::new().chain_update(name).chain_update([b'\n', kind]).chain_update(key.point()).finalize();

@@ -101,10 +101,10 @@ pub struct Aims {
     pub protect: Vec<SpriteType>,
     /// Types whose appearance loses the game.
     pub prevent: Vec<SpriteType>,
-    /// The tick at which the game is won if the player survives until then.
+    /// The tick at which the game is won if the player survives until then; `None` if survival does not win.
     pub survive: Option<i32>,
-    /// The first tick at which a Timeout loses, or may lose, the game, disregarding the reference engine's
-    /// own tick limit.
+    /// The first tick at which a Timeout loses, or may lose, the game, disregarding the reference engine's own tick
+    /// limit. `None` if no Timeout loses.
     pub deadline: Option<i32>,
     /// `true` if losing the avatar loses the game.
     pub avatar_must_live: bool,
@@ -225,7 +225,8 @@ impl Analysis {
             })
     }
 
-    /// Returns the termination that would end the game if a tick ended in this state. Cost: O(goals × types).
+    /// Returns the termination that would end the game if a tick ended in this state; `None` if no termination would.
+    /// Cost: O(goals × types).
     pub fn goal_met(&self, state: &State) -> Option<&Goal> {
         let rules = &*self.game.0;
         self.goals.iter().find(|goal| rules.terminations[goal.line].holds(rules, &state.world))

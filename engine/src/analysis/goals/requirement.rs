@@ -34,7 +34,7 @@ pub struct Requirement {
     pub types: Vec<SpriteType>,
     /// The minimum total number of sprites.
     pub at_least: u32,
-    /// The maximum total number of sprites.
+    /// The maximum total number of sprites; `None` for no maximum.
     pub at_most: Option<u32>,
     /// The reason for the requirement.
     pub reason: Reason,
@@ -105,8 +105,8 @@ fn makers(analysis: &Analysis) -> Vec<Option<&Encounter>> {
     makers
 }
 
-/// Returns the requirements for creating the sprites that a win needs, or for removing unwanted sprites that
-/// the avatar cannot remove by touching them.
+/// Returns the requirements for a win by the termination at index `at`: for creating the sprites that it counts or, if
+/// there must be few of them, for removing them by pushes.
 fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec<Requirement> {
     let condition = &analysis.goals[at].condition;
     let wants_more = match condition {

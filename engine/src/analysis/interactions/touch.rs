@@ -40,7 +40,7 @@ pub enum Removal {
 pub struct Touch {
     /// The harm to the avatar.
     pub harm: Harm,
-    /// The resource, with the required amount, that protects the avatar from harm.
+    /// The resource, with the required amount, that protects the avatar from harm; `None` if no resource does.
     pub safe_with: Option<(SpriteType, i32)>,
     /// `true` if the avatar cannot enter the sprite's cell.
     pub blocks: bool,
@@ -50,9 +50,9 @@ pub struct Touch {
     pub carries: bool,
     /// The conditions under which the sprite is removed.
     pub removal: Removal,
-    /// The type that the avatar turns into.
+    /// The type that the avatar turns into; `None` if the avatar keeps its type.
     pub becomes: Option<SpriteType>,
-    /// The type that the sprite turns into.
+    /// The type that the sprite turns into; `None` if the sprite keeps its type.
     pub changes: Option<SpriteType>,
     /// The resources that the avatar gains or loses, with their amounts.
     pub gives: Vec<(SpriteType, i32)>,

@@ -147,8 +147,8 @@ impl Cells {
         new
     }
 
-    /// Adds the cells of a line that are at most `distance` away, along the line, from a cell in `from`. The
-    /// line starts at `start` and advances by `step`.
+    /// Adds the cells of a line that are at most `distance` away, along the line, from a cell in `from`. The line
+    /// starts at `start`, advances by `step`, and has `length` cells.
     fn smear(&mut self, from: &Cells, (start, step): (usize, usize), length: usize, distance: i32) {
         for back in [false, true] {
             let mut left = 0;

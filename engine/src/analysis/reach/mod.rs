@@ -84,9 +84,9 @@ use reasons::tally::Tally;
 #[derive(Clone, Debug)]
 pub struct Reach {
     board: Board,
-    /// For each type, its cells between two ticks. Types that cannot occur have no cells.
+    /// For each type, the cells in which its sprites can be between two ticks. Empty for types that cannot occur.
     rest: Vec<Cells>,
-    /// For each type, its cells at any point in a tick.
+    /// For each type, the cells in which its sprites can be at some point in a tick.
     touch: Vec<Cells>,
     avatars: Vec<SpriteType>,
     impossible_goals: Vec<ImpossibleGoal>,

@@ -18,7 +18,8 @@ pub(in crate::compile) fn number_of(keyword: &str) -> Option<u16> {
 }
 
 impl<'a> Reader<'a> {
-    /// Returns the parameter with this name. If the name is duplicated, returns the last parameter.
+    /// Returns the parameter with this name; `None` if the line does not contain it. If the name is duplicated, returns
+    /// the last parameter.
     pub(super) fn param(&self, key: &str) -> Option<&'a Param> {
         self.line.params.iter().rev().find(|param| param.key.text == key)
     }

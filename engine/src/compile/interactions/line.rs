@@ -42,7 +42,7 @@ pub(in crate::compile) struct Reader<'a> {
     pub(super) score_faults: [bool; 2],
     /// The index, among the timed effects, of the effect that this line schedules.
     pub(super) timed: u16,
-    /// The effect that addTimer schedules, and the index of the effect's keyword.
+    /// The effect that addTimer schedules, and the index of the effect's keyword; `None` for any other effect.
     pub(super) planned: Option<(EffectInfo, u16)>,
 }
 

@@ -129,7 +129,7 @@ struct Properties<'a> {
     ending: Option<Ending>,
     movement: Option<Movement<'a>>,
     makes: &'a [SpriteType],
-    /// The type that must exist or be held for the effect to happen.
+    /// The type that must exist or be held for the effect to happen; `None` if the effect needs no type.
     names: Option<SpriteType>,
 }
 
@@ -200,14 +200,14 @@ impl EffectSummary {
         }
     }
 
-    /// Returns the sprites that the effect may remove or turn into other sprites, and the way in which it
-    /// does so.
+    /// Returns the sprites that the effect may remove or turn into other sprites, and the way in which it does so;
+    /// `None` for any other effect.
     pub(crate) fn ending(&self) -> Option<(Target, Ending)> {
         let Properties { target, ending, .. } = self.properties();
         target.zip(ending)
     }
 
-    /// Returns the move caused by the effect.
+    /// Returns the move caused by the effect; `None` if it causes no move.
     pub(crate) fn movement(&self) -> Option<Movement<'_>> {
         self.properties().movement
     }

@@ -147,7 +147,7 @@ impl Sentence {
         }
     }
 
-    /// Returns the value of a placeholder.
+    /// Returns the value of a placeholder; `None` if the sentence has no such placeholder.
     pub(crate) fn value(&self, hole: &str) -> Option<&Value> {
         self.values.iter().find(|(name, _)| *name == hole).map(|(_, value)| value)
     }

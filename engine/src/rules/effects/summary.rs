@@ -74,28 +74,28 @@ pub(crate) struct Summary {
     pub(crate) spares_avatars: bool,
     /// The sprites that the effect may move.
     pub(crate) moves: Moves,
-    /// The new position of the first sprite.
+    /// The new position of the first sprite; `None` if the effect does not move it.
     pub(crate) displacement: Option<Displacement>,
-    /// The new orientation of the first sprite.
+    /// The new orientation of the first sprite; `None` if the effect does not turn it.
     pub(crate) turn: Option<Turn>,
     pub(crate) speed: Option<SpeedEffect>,
-    /// The position where sprites appear, for [`EffectSummary::Make`].
+    /// The position where sprites appear; `None` unless the effect is an [`EffectSummary::Make`].
     pub(crate) spot: Option<Spot>,
     /// `true` if a transformed sprite keeps its orientation, regardless of the two types.
     pub(crate) forces_orientation: bool,
     /// `true` if the transformed first sprite faces in the direction opposite to the partner's.
     pub(crate) takes_orientation: bool,
-    /// The resource that a collision gives.
+    /// The resource that a collision gives; `None` if it gives none.
     pub(crate) gives: Option<Gives>,
-    /// The resource whose limit the effect can exceed.
+    /// The resource whose limit the effect can exceed; `None` if it exceeds no limit.
     pub(crate) overfills: Option<SpriteType>,
-    /// The type whose sprites the effect counts.
+    /// The type whose sprites the effect counts; `None` if it counts none.
     pub(crate) counts: Option<SpriteType>,
-    /// The spawn points that create a different type after the effect.
+    /// The spawn points that create a different type after the effect, if any.
     pub(crate) redirects: Option<Redirection>,
-    /// The partner type and the effect keyword's index against which the first sprite's type is shielded.
+    /// The partner type and the effect keyword's index against which the first sprite's type is shielded, if any.
     pub(crate) shield: Option<(SpriteType, u16)>,
-    /// The scheduled timed effect.
+    /// The index of the timed effect that the effect schedules, if any.
     pub(crate) schedules: Option<u16>,
     /// The score change if an execution kills a sprite.
     pub(crate) score_if_killed: i32,
@@ -338,7 +338,8 @@ impl Summary {
         })
     }
 
-    /// Returns the resource that the effect changes or tests. The resource's type need not exist as a sprite.
+    /// Returns the resource that the effect changes or tests; `None` if it changes and tests none. The resource's type
+    /// need not exist as a sprite.
     pub(crate) fn resource(&self) -> Option<SpriteType> {
         let tested = match self.precondition {
             Precondition::Holds(_, resource, _) | Precondition::HoldsAtMost(_, resource, _) => Some(resource),
@@ -351,8 +352,8 @@ impl Summary {
         tested.or(changed).filter(|&resource| resource != SpriteType::NONE)
     }
 
-    /// Returns the type whose sprites can gain speed from a standstill when the effect runs on sprites of
-    /// `one`. Forces act only on sprites with continuous physics.
+    /// Returns the type whose sprites can gain speed from a standstill when the effect runs on sprites of `one`; `None`
+    /// if no sprite can. Forces act only on sprites with continuous physics.
     pub(crate) fn gives_speed(&self, one: SpriteType) -> Option<SpriteType> {
         match self.speed? {
             SpeedEffect::OfAll { stype, .. } => Some(stype),

@@ -21,7 +21,7 @@ pub(crate) fn unreadable(source: &str) -> Option<Diagnostic> {
     Some(problem.remove(Span::new(at, at + c.len_utf8()), &c.escape_default().to_string()))
 }
 
-/// Returns the diagnostic for an overlong line.
+/// Returns the diagnostic for an overlong line; `None` if the line is short enough.
 pub(crate) fn long_line(line: &Line<'_>) -> Option<Diagnostic> {
     let length = line.text.len();
     let message = format!("this line is {length} bytes long; the limit is {MAX_LINE}");
@@ -29,7 +29,7 @@ pub(crate) fn long_line(line: &Line<'_>) -> Option<Diagnostic> {
     (length > MAX_LINE).then_some(problem)
 }
 
-/// Returns the diagnostic for an overlong sprite name.
+/// Returns the diagnostic for an overlong sprite name; `None` if the name is short enough.
 pub(crate) fn long_name(name: &Word) -> Option<Diagnostic> {
     let length = name.text.len();
     let message = format!("this name is {length} bytes long; the limit is {MAX_NAME}");

@@ -104,7 +104,8 @@ pub(crate) fn off_grid(head: usize, lines: &[&Line<'_>], problems: &mut Vec<Diag
     true
 }
 
-/// Returns the non-empty runs of neighbouring lines for which `off` returns the same value.
+/// Returns the runs of neighbouring lines for which `off` returns the same value. Lines for which it returns `None`
+/// belong to no run.
 fn runs<'a, 'b, 'c>(
     lines: &'c [&'b Line<'a>],
     off: impl Fn(usize, &Line<'a>) -> Option<usize>,

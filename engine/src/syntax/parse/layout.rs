@@ -20,7 +20,7 @@ pub(crate) struct Line<'a> {
     pub(crate) whole: Span,
     /// The comment lines above the line.
     pub(crate) above: Vec<&'a str>,
-    /// The comment at the end of the line.
+    /// The comment at the end of the line, if there is one.
     pub(crate) beside: Option<&'a str>,
 }
 
@@ -77,8 +77,8 @@ pub(crate) fn lines(source: &str) -> (Vec<Line<'_>>, Vec<&str>) {
     (lines, above)
 }
 
-/// Finds a line that consists only of `#` characters and starts in the first column. The reference crashes on
-/// such a line (`spec/01` §1.1).
+/// Finds the first line that consists only of `#` characters and starts in the first column; `None` if there is no such
+/// line. The reference crashes on such a line (`spec/01` §1.1).
 pub(crate) fn bare_hashes(source: &str) -> Option<Span> {
     let mut start = 0;
     source.split(['\n', '\r']).find_map(|raw| {

@@ -24,7 +24,8 @@ fn is_value(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '.')
 }
 
-/// Splits a word that has no separator between its key and its value, and returns both.
+/// Splits a word that has no separator between its key and its value, and returns both; `None` if the word does not
+/// look like a key and a value.
 fn glued(word: &str) -> Option<(&str, &str)> {
     let truth = ["True", "False", "true", "false"].into_iter().find(|truth| word.ends_with(truth));
     let at = match truth {
@@ -36,7 +37,8 @@ fn glued(word: &str) -> Option<(&str, &str)> {
     (!key.is_empty() && fits).then_some((key, value))
 }
 
-/// Returns the index at which a well-known parameter's value starts.
+/// Returns the index at which a well-known parameter's value starts; `None` if the word does not begin with such a
+/// parameter.
 fn named(word: &str) -> Option<usize> {
     const KEYS: [&str; 12] = [
         "scoreChange",
@@ -55,8 +57,8 @@ fn named(word: &str) -> Option<usize> {
     KEYS.into_iter().find(|key| word.starts_with(key) && word.len() > key.len()).map(str::len)
 }
 
-/// Returns the text to write instead of a word that stands for an arrow, or that contains an arrow with too
-/// few spaces around it.
+/// Returns the text to write instead of a word that stands for an arrow, or that contains an arrow with too few spaces
+/// around it; `None` for any other word.
 pub(crate) fn arrow(word: &str) -> Option<String> {
     const LIKE_ARROWS: [&str; 14] =
         ["<", "->", "-->", "=>", ">>", "<-", "-", "~", ":", "|", "=", "→", "»", "›"];

@@ -20,7 +20,7 @@ pub(crate) struct Part<'a, 'b> {
     pub(crate) body: Vec<&'b Line<'a>>,
 }
 
-/// Returns the section whose name is on a line, ignoring case.
+/// Returns the section whose name is on a line, ignoring case; `None` if the line is not a section name.
 pub(crate) fn named(text: &str) -> Option<Section> {
     let mut all = Section::ALL.into_iter().chain([Section::ParameterSet]);
     all.find(|section| section.name().eq_ignore_ascii_case(text))

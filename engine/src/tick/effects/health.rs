@@ -29,8 +29,9 @@ pub(super) fn add(
     }
 }
 
-/// Executes subtractHealthPoints. If `stype` is given, the effect acts on the first sprite of the last
-/// non-empty group in that type's tree. An execution that kills a sprite has a separate score.
+/// Executes subtractHealthPoints on the first sprite of the last non-empty group in the tree of `stype`. Without a
+/// `stype`, or if all groups are empty, the effect acts on `one`. If the effect kills the sprite, `scoreChangeIfKilled`
+/// replaces `scoreChange`.
 pub(super) fn subtract(
     step: &mut Step<'_, impl Scheduler>,
     index: u16,
@@ -52,7 +53,7 @@ pub(super) fn subtract(
     }
 }
 
-/// Returns the first sprite of the last non-empty group in a tree.
+/// Returns the first sprite of the last non-empty group in a type's tree; `None` if all groups are empty.
 pub(super) fn last_of(step: &Step<'_, impl Scheduler>, stype: SpriteType) -> Option<Slot> {
     let tree = step.rules.types.get(stype.index()).map_or(&[][..], |info| &info.tree);
     let groups = tree.iter().map(|&stype| step.world.group(stype).head);

@@ -207,7 +207,7 @@ pub(super) fn draw_exit(step: &mut Step<'_, impl Scheduler>, two: Slot) {
     }
 }
 
-/// Returns the exit type to which a sprite leads.
+/// Returns the exit type to which a sprite leads; `None` if it leads nowhere.
 fn exit_of(step: &Step<'_, impl Scheduler>, two: Slot) -> Option<SpriteType> {
     let info = &step.rules.types[step.world.sprite(two).stype.index()];
     let spawns = info.class.is_some_and(|class| class.is_a(SpriteClass::SpawnPoint));

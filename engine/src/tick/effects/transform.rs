@@ -46,7 +46,8 @@ pub(super) fn all(
     }
 }
 
-/// Transforms the sprite into a random type that is related to a given type in the SpriteSet.
+/// Transforms the sprite into one of `options`, drawn at random: the ancestors and descendants of the rule's `stype` in
+/// the SpriteSet. Without options, nothing happens. If the drawn type has no class, the effect only logs a message.
 pub(super) fn random_child(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,
@@ -91,8 +92,7 @@ pub(super) fn if_count(
     }
 }
 
-/// Turns the sprite into its type's singleton. The previous singleton turns into a sprite of a different
-/// type.
+/// Turns all sprites of exactly `stype` into sprites of `other`, and then the first sprite into a sprite of `stype`.
 pub(super) fn to_singleton(
     step: &mut Step<'_, impl Scheduler>,
     one: Slot,

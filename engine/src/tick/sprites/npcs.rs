@@ -286,8 +286,8 @@ pub(crate) fn path_ahead(rules: &Rules, world: &World, sprite: &Sprite) -> Direc
     way.unwrap_or(Direction::NONE)
 }
 
-/// Returns the first step of the path to a position. A game without `obs=` has no paths, so the request stops
-/// the episode.
+/// Returns the first step of the path to a position; `None` if there is no path or no step to take. A game without
+/// `obs=` has no paths, so the request stops the episode.
 fn first_step(step: &mut Step<'_, impl Scheduler>, from: Rect, to: (i32, i32)) -> Option<Direction> {
     if !step.rules.finds_paths {
         step.stop(Limit::NoPaths);
@@ -381,7 +381,8 @@ fn path_alt_chaser(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Direction
     way.unwrap_or(Direction::NONE)
 }
 
-/// Returns the first of the closest targets, or a random target.
+/// Returns the first of the closest targets, or `None` if there are no targets. With `randomTarget`, returns a random
+/// target, or an error if there are no targets.
 fn new_target(step: &mut Step<'_, impl Scheduler>, slot: Slot) -> Result<Option<(Target, Rect)>, Limit> {
     let Sprite { rect: own, stype, .. } = *step.world.sprite(slot);
     let traits = &step.rules.types[stype.index()].traits;

@@ -283,7 +283,8 @@ fn goal(invention: &Invention, types: &[Merged], nouns: &Nouns) -> Result<String
     Ok(phrase::sentence(&phrase::fill(&text, &own).map_err(GenerateError::Unsuitable)?))
 }
 
-/// Returns at most one sentence about a type with opposed uses.
+/// Returns at most one sentence about a type with opposed uses, which is needed by one mechanic, and used up, removed,
+/// feared or in the way in another.
 fn dilemmas(types: &[Merged], nouns: &Nouns, sampler: &mut Sampler) -> Vec<String> {
     let mut said = Vec::new();
     for (class, merged) in types.iter().enumerate().filter(|(_, merged)| is_opposed(merged)) {

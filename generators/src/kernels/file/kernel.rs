@@ -22,7 +22,8 @@ pub(crate) struct Kernel {
     /// The name of the kernel's form; `None` for the unmodified kernel.
     pub(crate) form: Option<String>,
     pub(crate) kind: Kind,
-    /// The name of a similar kernel. A small set of games uses only one of the two kernels.
+    /// The name of a similar kernel. Games from the two kernels count as games from the same kernel when a set is
+    /// balanced.
     pub(crate) like: Option<String>,
     /// A sentence that describes the whole game, with placeholders such as `<type>` for nouns.
     pub(crate) dilemma: String,

@@ -1,5 +1,4 @@
-//! The reference player for examinations in building world models. It induces rules from the recordings by trying
-//! changes.
+//! The reference player for world-model examinations. It induces a game's rules from the recordings by trying changes.
 //!
 //! The player begins with a game in which nothing happens, except that the episode is lost if the avatar disappears. It
 //! looks at the earliest deviation of an episode, and tries all classes, rules and terminations for the sprite types

@@ -44,7 +44,7 @@ pub struct GameEntry {
     pub rules: Digest,
     /// `true` if the game and all of its levels meet every criterion.
     pub passes: bool,
-    /// The first unmet criterion.
+    /// The first unmet criterion; `None` if all criteria are met.
     pub obstacle: Option<Criterion>,
     /// The kind of game.
     pub kind: GameKind,
@@ -54,9 +54,9 @@ pub struct GameEntry {
     pub held_out: Option<Edge>,
     /// The game's levels.
     pub levels: Vec<LevelEntry>,
-    /// The nearest game in the set.
+    /// The nearest other game in the set; `None` if the set has only one game.
     pub nearest: Option<Nearest>,
-    /// The nearest game in the corpus.
+    /// The nearest game in the corpus; `None` if the corpus is empty.
     pub nearest_corpus: Option<Nearest>,
 }
 
@@ -67,11 +67,12 @@ pub struct LevelEntry {
     pub columns: u64,
     /// The number of rows of the board.
     pub rows: u64,
-    /// The number of ticks in the shortest win found.
+    /// The number of ticks in the shortest win found; `None` if no win was found.
     pub ticks: Option<u64>,
-    /// The ease measured by the ladder (reference players of increasing strength), from 0 to 1.
+    /// The ease measured by the ladder (reference players of increasing strength), from 0 to 1; `None` if it was not
+    /// measured.
     pub ease: Option<f64>,
-    /// The difficulty label for the ease.
+    /// The difficulty label according to the ladder; `None` if no ladder played.
     pub label: Option<Difficulty>,
 }
 

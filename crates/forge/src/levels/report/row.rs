@@ -18,7 +18,7 @@ pub struct LevelRow {
     pub rows: u64,
     /// `true` if the level meets every requested criterion.
     pub passes: bool,
-    /// The first unmet criterion.
+    /// The first unmet criterion; `None` if all requested criteria are met.
     pub obstacle: Option<Criterion>,
     /// The result of the search for a win: `solved`, `impossible` or `unknown`.
     pub solved: &'static str,
@@ -26,7 +26,8 @@ pub struct LevelRow {
     pub asked: Option<Difficulty>,
     /// The measured difficulty; `None` if it was not measured.
     pub label: Option<Difficulty>,
-    /// The ease measured by the ladder (reference players of increasing strength), from 0 to 1.
+    /// The ease measured by the ladder (reference players of increasing strength), from 0 to 1; `None` if it was not
+    /// measured.
     pub ease: Option<f64>,
     /// The number of ticks in the shortest win, if the win is proved to be the shortest.
     pub shortest: Option<u64>,

@@ -46,7 +46,7 @@ pub(crate) fn tile(look: Look, facing: Option<Point>) -> Vec<Shape> {
 /// A tile under construction.
 pub(crate) struct Art {
     look: Look,
-    /// The direction of the tile's front, as a unit vector.
+    /// The direction of the tile's front, as a unit vector; `None` for a tile without a direction.
     facing: Option<Point>,
     shapes: Vec<Shape>,
 }

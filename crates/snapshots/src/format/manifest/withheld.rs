@@ -13,8 +13,8 @@ pub struct Withheld {
     pub solutions: Digest,
     /// The digest of the list of all other withheld files.
     pub rest: Digest,
-    /// The lists available so far and the files listed in them, sorted by the bytes of their paths. Not part
-    /// of the manifest's text.
+    /// The lists of withheld files that have been disclosed so far and the files listed in them, sorted by the bytes of
+    /// their paths. Not part of the manifest's text.
     #[serde(skip)]
     pub(crate) disclosed: Vec<Item>,
 }

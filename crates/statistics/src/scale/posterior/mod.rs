@@ -203,7 +203,7 @@ impl<'a> Model<'a> {
     }
 
     /// Takes a step, which is halved until it does not decrease the log density. Returns the new modes, their log
-    /// density, and an upper bound on the step length.
+    /// density, and an upper bound on the step length. Returns `None` if even a tiny step decreases the log density.
     fn raised(
         &self,
         rows: &[Vec<Row>],
@@ -260,8 +260,8 @@ impl<'a> Model<'a> {
         sum
     }
 
-    /// Returns the curvature at the modes. If variances of the linear predictors are given, returns the
-    /// expected curvature around the modes instead.
+    /// Returns the curvature at the modes. If variances of the linear predictors are given, returns the expected
+    /// curvature around the modes instead. Returns `None` if a matrix is not positive definite.
     fn curvature(
         &self,
         rows: &[Vec<Row>],

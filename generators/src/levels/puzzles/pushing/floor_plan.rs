@@ -160,7 +160,7 @@ impl Pushing<'_> {
         (position.things[kind].count_ones() as usize) < self.floor_plan.counts[kind]
     }
 
-    /// Returns the cells at which the push that led to a position may have ended.
+    /// Returns the cells into which an object may have been pushed immediately before a position.
     pub(crate) fn ends(&self, after: &Position) -> Cells {
         let gone = |(kind, destination): (usize, &Destination)| match destination {
             _ if !self.is_missing(kind, after) => 0,
@@ -171,9 +171,8 @@ impl Pushing<'_> {
         self.rules.destinations.iter().enumerate().map(gone).fold(after.taken(), |ends, more| ends | more)
     }
 
-    /// Finds the positions before the push that moved the avatar to `near` from `near` plus `stride`. The push moved
-    /// the object from `near` to `near` minus `stride`. In the returned positions, the avatar is in the cell from which
-    /// it pushed.
+    /// Calls `each` with every position from which a given push leads to `after`. The push moves the avatar from `near`
+    /// plus `stride` to `near`, and an object from `near` to `near` minus `stride`.
     pub(crate) fn before(
         &self,
         after: &Position,

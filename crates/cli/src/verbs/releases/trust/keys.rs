@@ -1,5 +1,5 @@
-//! `arcade trust keys`: creates and shows a publisher's key sets, each of which follows from the previous
-//! one.
+//! `arcade trust keys`: creates and shows a publisher's key sets. Each set after the first is signed with keys of the
+//! previous set.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
@@ -77,7 +77,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     say(args, &set, console)
 }
 
-/// Shows a key set, and states whether it follows from the first set.
+/// Shows a key set, and states whether each set from the second to this one is signed as the previous set requires.
 fn say(args: &Args, set: &KeySet, console: &Console) -> Answer {
     let found = Signatures::read(&args.folder)?;
     let mut problems = Vec::new();
