@@ -202,7 +202,7 @@ fn counts(analysis: &Analysis, stype: SpriteType, idiom: Idiom, demand: u8) -> (
         Idiom::Heavy => (1 + demand.min(1), 2 + demand / 2),
         Idiom::Spot if is_aim && !is_target => (2 + demand, 4 + demand + demand / 2),
         // A single target would make the level too short.
-        Idiom::Heavy | Idiom::Spot | Idiom::Patrol | Idiom::Hunter | Idiom::Stray if is_aim => {
+        Idiom::Spot | Idiom::Patrol | Idiom::Hunter | Idiom::Stray if is_aim => {
             (1 + demand.min(1), 2 + demand / 2)
         }
         Idiom::Spot => (1, 2 + demand / 2),

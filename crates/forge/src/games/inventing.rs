@@ -4,7 +4,7 @@ use super::apart::{FarInventions, LONG_PATIENCE};
 use super::attempt::Attempted;
 use super::candidate::MadeGame;
 use super::make::{GameSet, GamesError, Maker};
-use super::order::{GameEffort, GameOrder};
+use super::order::GameOrder;
 use super::searched::REFUSED;
 use super::sets::company::Company;
 use crate::levels::Method;
