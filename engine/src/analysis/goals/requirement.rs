@@ -148,7 +148,10 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
 
 /// Returns `true` if sprites of the type can appear after the start.
 fn is_created(analysis: &Analysis, stype: SpriteType) -> bool {
-    let creates = |effect: &EffectSummary| matches!(effect, EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) | EffectSummary::Make(to) if *to == stype);
+    let creates = |effect: &EffectSummary| match effect {
+        EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) | EffectSummary::Make(to) => *to == stype,
+        _ => false,
+    };
     analysis.encounters.iter().any(|met| met.does(creates))
         || analysis.facts.iter().any(|facts| facts.makes.contains(&stype))
 }
@@ -156,10 +159,9 @@ fn is_created(analysis: &Analysis, stype: SpriteType) -> bool {
 /// Returns the number of sprites that a win must create for a condition: 1 if levels can place some of them, or if
 /// several types count.
 fn missing(analysis: &Analysis, condition: &Condition) -> u32 {
-    match condition {
-        Condition::AtLeast(types, limit) | Condition::Exactly(types, limit) if matches!(types[..], [wanted] if analysis.facts(wanted).symbols.is_empty()) => {
-            count(*limit).max(1)
-        }
+    let (Condition::AtLeast(types, limit) | Condition::Exactly(types, limit)) = condition else { return 1 };
+    match types[..] {
+        [wanted] if analysis.facts(wanted).symbols.is_empty() => count(*limit).max(1),
         _ => 1,
     }
 }
