@@ -182,8 +182,12 @@ fn rarity(name: &str) -> u64 {
 /// Returns `true` if two games, given by their patterns, share two mechanics, or a mechanic and the ending. Players
 /// would consider them to be the same game.
 pub fn share_idea(one: &[String], two: &[String]) -> bool {
-    let is_part = |pattern: &str| pattern.starts_with("mechanic/") || pattern.starts_with("ending/");
     one.iter().filter(|pattern| is_part(pattern) && two.contains(pattern)).count() > 1
+}
+
+/// Returns `true` if a pattern names a mechanic or an ending.
+pub fn is_part(pattern: &str) -> bool {
+    pattern.starts_with("mechanic/") || pattern.starts_with("ending/")
 }
 
 impl Invention {

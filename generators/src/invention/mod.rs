@@ -21,7 +21,7 @@ mod supply;
 mod tests;
 mod variation;
 
-pub use draw::{Census, InventionConfig, Lead, share_idea};
+pub use draw::{Census, InventionConfig, Lead, is_part, share_idea};
 pub use genome::{Invented, Invention};
 pub use mechanic::MechanicInWords;
 pub use profile::{Profile, Verb};

@@ -17,7 +17,7 @@ use crate::sections::puzzles::PuzzleKind;
 use engine::{Analysis, Game};
 use forge::games::{Cast, NO_RULES};
 use forge::{Tally, reasons};
-use generators::invention::share_idea;
+use generators::invention::{is_part, share_idea};
 use generators::levels::LevelSimilarity;
 use itertools::Itertools;
 use rayon::prelude::*;
@@ -179,9 +179,9 @@ fn tiers(recipe: &Recipe) -> Vec<(Tier, i64)> {
 /// The number of random starts of the local search.
 const STARTS: u64 = 24;
 
-/// The amount by which a selection misses the quotas, the amount by which it misses the histogram, and its number of
-/// duplicate titles.
-type Miss = (i64, i64, i64);
+/// The amount by which a selection misses the quotas, the amount by which it misses the histogram, its number of
+/// duplicate titles, and its number of pairs of games that share a mechanic or an ending.
+type Miss = (i64, i64, i64, i64);
 
 /// Recommends the next step: either a small change to the recipe that preserves finished jobs, or a different change
 /// that does not. A sealed recipe cannot be changed at all, because the commitment covers it.
@@ -406,6 +406,7 @@ struct Counts<'a> {
     avatars: BTreeMap<AvatarKind, i64>,
     kinds: BTreeMap<(GoalKind, AvatarKind), i64>,
     titles: BTreeMap<&'a str, i64>,
+    parts: BTreeMap<&'a str, i64>,
 }
 
 impl<'a> Counts<'a> {
@@ -432,6 +433,9 @@ impl<'a> Counts<'a> {
         *self.goals.entry(game.goal).or_default() += times;
         *self.avatars.entry(game.avatar).or_default() += times;
         *self.kinds.entry((game.goal, game.avatar)).or_default() += times;
+        for part in game.patterns.iter().filter(|pattern| is_part(pattern)) {
+            *self.parts.entry(part.as_str()).or_default() += times;
+        }
         // Titles with count 0 are removed, so only the titles of selected games are kept.
         for title in &game.titles {
             let same = self.titles.entry(title.as_str()).or_default();
@@ -463,6 +467,44 @@ impl<'a> Counts<'a> {
             |(tier, asked): &(Tier, i64)| (self.tiers.get(tier).copied().unwrap_or_default() - asked).pow(2);
         let histogram = histogram + self.tiers_asked.iter().map(of_tier).sum::<i64>();
         let twice = self.titles.values().map(|there| (there - 1).max(0)).sum();
-        (goals.chain(avatars).sum::<i64>() + crowded, histogram, twice)
+        let shared = self.parts.values().map(|there| there * (there - 1) / 2).sum();
+        (goals.chain(avatars).sum::<i64>() + crowded, histogram, twice, shared)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mint::tests::{FETCH, recipe};
+
+    /// Two of the three games have the same danger, so the third game is always selected.
+    #[test]
+    fn games_that_share_no_mechanic_are_preferred() {
+        let form = GameForm::of(&Game::from_source(FETCH).unwrap());
+        let contender = |(job, danger): (usize, &str)| Contender {
+            job,
+            at: 0,
+            part: Part::Invented,
+            is_new: true,
+            titles: vec![format!("Game {job}")],
+            casts: Vec::new(),
+            difficulties: Vec::new(),
+            tiers: Vec::new(),
+            goal: GoalKind::Deliver,
+            avatar: AvatarKind::Walks,
+            rules: 5,
+            form: form.clone(),
+            patterns: vec![format!("mechanic/{danger}"), format!("ending/{job}")],
+            items: Vec::new(),
+        };
+        let recipe = recipe("shared");
+        for dangers in [["hunt", "hunt", "flood"], ["flood", "hunt", "hunt"], ["hunt", "flood", "hunt"]] {
+            let contenders: Vec<Contender> = dangers.into_iter().enumerate().map(contender).collect();
+            let asked = BTreeMap::from([(Part::Invented, 2)]);
+            let mut choice = Choice::of(&recipe, &contenders, vec![0, 1, 2], asked);
+            choice.improve();
+            let taken: BTreeSet<&str> = choice.taken.iter().map(|&at| dangers[at]).collect();
+            assert_eq!(taken, BTreeSet::from(["flood", "hunt"]), "{dangers:?}");
+        }
     }
 }
