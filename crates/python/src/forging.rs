@@ -45,7 +45,7 @@ pub(crate) fn validate(py: Python<'_>, level: &Level, budget: u64, seed: &str) -
 /// the cost.
 #[pyfunction]
 #[pyo3(signature = (game, examples, *, method, count, seed, difficulty = None, size = None, min_solution = None, verified = false, sprites = Vec::new()))]
-#[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
+#[allow(clippy::too_many_arguments, reason = "each option of `arcade generate levels` is an argument")]
 pub(crate) fn generate_levels(
     py: Python<'_>,
     game: &Game,

@@ -27,7 +27,7 @@ pub(crate) fn recipe(name: &str) -> Option<&'static str> {
 /// Mints a release, or its part (shard) `K/N`, from the text of its recipe.
 #[pyfunction]
 #[pyo3(signature = (recipe, out, *, parent = None, secret = None, shard = None, resume = false, jobs = None))]
-#[allow(clippy::too_many_arguments, reason = "the arguments are the flags of the command")]
+#[allow(clippy::too_many_arguments, reason = "each option of `arcade release` is an argument")]
 pub(crate) fn mint(
     py: Python<'_>,
     recipe: String,

@@ -202,8 +202,8 @@ impl<'a> Outlook<'a> {
             || self.ends_without(family) && self.is_there_now(&|one| family.contains(&one))
     }
 
-    /// Returns `true` only if `fits` accepts the type of some sprite that exists now or, without a state, at
-    /// the start of every level.
+    /// Returns `true` only if `fits` accepts the type of some existing sprite. With a state, the sprite exists in this
+    /// state. Without a state, such a sprite exists at the start of every level.
     fn is_there_now(&self, fits: &dyn Fn(SpriteType) -> bool) -> bool {
         let mut types = (0u16..).map(SpriteType).take(self.rules.types.len());
         match self.state {

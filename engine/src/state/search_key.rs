@@ -184,8 +184,8 @@ impl World {
         }
     }
 
-    /// Returns a sprite's age as read by the next update or event. All ages beyond the cooldown are
-    /// equivalent.
+    /// Returns a sprite's age as read by the next update or event. The age is capped at the type's cooldown, because
+    /// greater ages have the same effect. Only an age that is about to overflow is not capped.
     fn live_age(&self, sprite: &Sprite, info: &TypeInfo) -> i32 {
         let age = if sprite.is(flag::FROZEN) {
             sprite.moved_at
@@ -210,7 +210,8 @@ impl World {
         }
     }
 
-    /// Returns the number of ticks until the tick `until`. All ticks that the next step reaches are equivalent.
+    /// Returns the number of ticks until the tick `until`. The minimum is 1, because the next step treats the next tick
+    /// and all earlier ticks alike.
     fn wait(&self, until: i32) -> u64 {
         (i64::from(until) - i64::from(self.tick())).max(1) as u64
     }

@@ -63,7 +63,7 @@ impl Heap {
 pub(crate) struct Paths {
     /// For each cell, [`OPEN`] or [`CLOSED`].
     cells: Vec<u8>,
-    /// For each direction, its index and the offset, with wrapping, that a step adds to a cell.
+    /// For each direction, its number and the offset that a step adds to a cell's index, in wrapping arithmetic.
     ahead: Vec<(u8, usize)>,
     /// For each start cell, the first steps of its paths, once they have been requested. Empty for boards
     /// with too many cells.

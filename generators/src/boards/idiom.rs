@@ -145,7 +145,8 @@ fn with(analysis: &Analysis, stype: SpriteType) -> impl Iterator<Item = (&Encoun
         .chain(encounters.filter(second).map(|met| (met, Side::Second)))
 }
 
-/// Returns `true` if an interaction removes or changes all sprites of the type, wherever they are.
+/// Returns `true` if an interaction removes or changes sprites of the type, either the sprite in contact or every
+/// sprite on the board.
 fn is_ended(analysis: &Analysis, stype: SpriteType) -> bool {
     let afar = |effect: &EffectSummary| match effect {
         EffectSummary::KillAll(other) | EffectSummary::BecomeAll(other, _) => analysis.applies(*other, stype),

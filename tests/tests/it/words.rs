@@ -98,7 +98,7 @@ fn no_coinage_is_left() {
     assert!(problems.is_empty(), "\n{}", problems.join("\n"));
 }
 
-/// Returns `true` if a file contains minted or recorded bytes, whose text must not change.
+/// Returns `true` if a file contains minted or recorded data, which must not be edited.
 fn is_data(name: &str) -> bool {
     name.starts_with("tests/suite/snapshots") || name.starts_with("crates/evaluation/tests/golden")
 }

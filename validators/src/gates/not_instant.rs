@@ -102,7 +102,8 @@ impl NotInstant {
         careless::win_share(&careless::nearest_goal(game, level, ticks, 0.0, 0..plays, seed))
     }
 
-    /// Returns the problems with a win if it comes too soon.
+    /// Returns a problem if the win takes fewer than [`Gates::least_win`] ticks, and another if it takes fewer than
+    /// [`Gates::spawn_periods`] periods of the slowest spawner on the level.
     fn too_short(
         &self,
         analysis: &Analysis,

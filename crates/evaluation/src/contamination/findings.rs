@@ -270,8 +270,7 @@ mod tests {
     }
 
     /// For a player that does not know the random choices, p ≤ x holds in at most a fraction x of all outcomes of these
-    /// choices. The bound does not depend on how the player's skill varies between games, or on which beginnings it
-    /// prefers.
+    /// choices. The bound holds even if the player is better at some games, or prefers some first actions to others.
     #[test]
     fn the_level_is_exact() {
         let clean = player(|game, side| (side == 0 || game % 3 == 0, BEGINNINGS[usize::from(game < 7)]));

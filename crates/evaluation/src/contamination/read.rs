@@ -37,8 +37,9 @@ pub struct PlayedEpisode {
 /// the run.
 type Place = (usize, String, usize, u64);
 
-/// Reads the episodes in results folders. Players are distinguished as in reports, but regardless of the
-/// games' names. Every episode is replayed from its log. Aborted and practice episodes do not count.
+/// Reads the episodes in results folders. As in reports, results with different configurations (such as modes or
+/// aids) belong to different players, but the games' names make no difference. Every episode is replayed from its
+/// log. Aborted and practice episodes do not count.
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, if a replay differs from its log, or if two folders

@@ -90,7 +90,7 @@ pub enum Event {
         /// The plan's actions, up to the number due. If there are fewer, the player does nothing in the
         /// remaining ticks.
         actions: Vec<Action>,
-        /// The origin of the choice, for all steps in the plan.
+        /// The validity of the choice, which applies to all steps in the plan.
         validity: Validity,
     },
     /// A step, in which one action was played.
@@ -99,7 +99,7 @@ pub enum Event {
         step: u64,
         /// The action played.
         action: Action,
-        /// The origin of the choice.
+        /// The validity of the choice.
         validity: Validity,
         /// The score after the action.
         score: f64,
@@ -123,7 +123,7 @@ pub enum Event {
         kinds: Vec<String>,
         /// The types for which the player predicts each fact, or `None` if no answer could be read.
         predicted: Option<Predicted>,
-        /// The origin of the predictions.
+        /// The validity of the predictions.
         validity: Validity,
         /// The comparison of the predictions with the rules. If the answer was unusable, no prediction is
         /// correct.

@@ -1,10 +1,10 @@
-//! The origins and costs of an episode's choices.
+//! The validity and costs of an episode's choices.
 
 use crate::log::{Event, ReplyClass};
 use crate::player::Validity;
 use serde::Serialize;
 
-/// The number of steps for each origin of a choice. The counts add up to the total number of steps.
+/// The number of steps by the validity of their choice. The counts add up to the total number of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Choices {
     /// The number of steps whose action was chosen by an answer in the requested format, or by a player that
@@ -22,7 +22,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Counts a log's choices by origin.
+    /// Counts a log's choices by validity.
     pub fn of(log: &[Event]) -> Choices {
         let mut choices = Choices::default();
         let mut class = None;

@@ -66,7 +66,7 @@ pub trait Agent: Send {
 pub struct Said {
     /// The predictions, or `None` if no answer could be read.
     pub predicted: Option<Predicted>,
-    /// The origin of the answer.
+    /// The validity of the answer.
     pub validity: Validity,
 }
 
@@ -77,7 +77,7 @@ pub struct Choice {
     /// played in the remaining ticks. [`Action::Nil`] also replaces actions that are unavailable when they are due.
     /// Actions beyond that number are not played.
     pub actions: Vec<Action>,
-    /// The origin of the choice.
+    /// The validity of the choice.
     pub validity: Validity,
 }
 
@@ -104,7 +104,8 @@ impl Choice {
 }
 
 base::named_enum! {
-    /// The origin of a choice. All tables list origins other than [`Valid`](Validity::Valid) separately.
+    /// The validity of a choice: [`Valid`](Validity::Valid), or the reason why there is no usable answer. All tables
+    /// list the reasons separately.
     pub enum Validity {
         /// The player stated the action.
         Valid = "valid",

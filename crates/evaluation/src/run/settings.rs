@@ -226,7 +226,10 @@ impl SubjectEntry {
         };
         let levels = self.levels.iter().map(level).collect::<Result<Vec<_>, EvaluationError>>()?;
         let changed = |what: &str| {
-            let what = format!("{what} differs from the file that was played; restore the results folder");
+            let what = format!(
+                "{what} has changed since this evaluation started; restore the results folder, or start a new \
+                 evaluation"
+            );
             EvaluationError::malformed(&folder, what)
         };
         let unreadable = |Unreadable { level, .. }: Unreadable| {

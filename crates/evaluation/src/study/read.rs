@@ -256,12 +256,13 @@ impl Names {
     }
 }
 
-/// The persons (players with their settings) in results folders with their episodes, and the settings of each folder.
-/// Unlike in a study, different games in several folders may share an ID.
+/// The persons in results folders, each with its episodes, and the evaluation settings of each folder. A person is a
+/// player with a fixed configuration, such as its mode and aids. Unlike in a study, different games in several folders
+/// may share an ID.
 pub(crate) type Persons = (Vec<(Player, Vec<EpisodeMetrics>)>, Vec<Settings>);
 
-/// Reads the persons (players with their settings) in results folders, and distinguishes them as in a study. Practice
-/// episodes are omitted. The metrics of all other episodes are computed by [`EpisodeMetrics::of_course`].
+/// Reads the persons in results folders. A difference in configuration makes two persons, as in [`Study::read`].
+/// Practice episodes are omitted. The metrics of all other episodes are computed by [`EpisodeMetrics::of_course`].
 ///
 /// # Errors
 /// Returns an error if a folder or log cannot be read, or if a replay differs from its log.

@@ -196,7 +196,9 @@ fn results_folders_are_locked_and_checked() {
     assert!(refusal(Evaluation::open(home.path())).contains("this folder contains no evaluation results"));
 
     fs::write(folder.join("games/corridor/lvl1.txt"), "wwww\nwAew\nwwww\n").unwrap();
-    assert!(refusal(Evaluation::open(&folder)).contains("lvl1.txt differs from the file that was played"));
+    assert!(
+        refusal(Evaluation::open(&folder)).contains("lvl1.txt has changed since this evaluation started")
+    );
     let settings_file = folder.join("evaluation.json");
     let text = fs::read_to_string(&settings_file).unwrap();
     fs::write(&settings_file, text.replace("\"corridor\"", "\"../corridor\"")).unwrap();

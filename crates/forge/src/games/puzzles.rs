@@ -149,12 +149,13 @@ const FEW_FLOOR_PLANS: usize = 60;
 const DRAWS: u64 = 40;
 
 impl PuzzleLevels {
-    /// Returns the tier (difficulty class) of a position in the game.
+    /// Returns the tier required of the game's level with this number. A tier, from 1 to 4, states how far ahead a
+    /// player must look to win.
     pub(crate) fn tier(&self, number: u32) -> Tier {
         self.tiers.get(number as usize).copied().unwrap_or(Tier::Four)
     }
 
-    /// Returns the generator for a position in the game.
+    /// Returns the generator for the game's level with this number.
     pub(crate) fn generator<'a>(
         &'a self,
         game: &'a Game,

@@ -27,8 +27,8 @@ const CHANCES: u32 = 4;
 /// The number by which a quick evaluation's call budget is divided to get the budget for each random future.
 const EARLY: u64 = 50;
 
-/// Cheap evaluations of candidates for one order, with few episodes and a small budget. Passing candidates must still
-/// be accepted by the panel.
+/// Evaluates candidates for one request for levels cheaply, with few episodes and a small budget. The panel must still
+/// accept the candidates that pass.
 pub(super) struct Looker<'a> {
     game: &'a Game,
     analysis: &'a Analysis,

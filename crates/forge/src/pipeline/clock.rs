@@ -11,7 +11,7 @@ use validators::{Cost, Criterion, CriterionSet, Effort, Judgement, Panel, Verdic
 const TIME_LIMITS: [u32; 9] = [150, 200, 250, 300, 400, 500, 600, 800, 1000];
 /// The minimum time limit, as a multiple of the length of the longest known win.
 const TIME_PER_WIN: f64 = 2.5;
-/// The minimum fraction of episodes of careless players that the rules must end in a game without a time limit,
+/// In a game without a time limit, the rules must end at least this fraction of the careless players' episodes,
 /// averaged over the levels. Careless players press a random key in some ticks.
 const ENDED_PLAYS: f64 = 0.5;
 /// The reason counted for a failed attempt to omit the time limit.

@@ -119,7 +119,7 @@ impl LevelTrial<'_> {
 
     pub(super) const DEAD_TIME: Stage<Self> = Stage {
         name: "dead time",
-        purpose: "in a course, requires that the win has no dead time",
+        purpose: "in a course, rejects a win with a long stretch without progress, such as waiting or pacing",
         cost: "a replay",
         criteria: CriterionSet::of(&[Criterion::NoDeadTime]),
         ..Stage::once(Self::refuse_dead_time)

@@ -22,7 +22,7 @@ pub(super) struct Stage<T> {
     pub(super) run: Run<T>,
 }
 
-/// A stage's code.
+/// The function that a stage runs, of one of the supported kinds.
 pub(super) enum Run<T> {
     /// Judges the candidate, and changes it if the stage replaces a part.
     Once(fn(&mut T, &mut Tally) -> Passage),

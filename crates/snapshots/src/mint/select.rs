@@ -188,10 +188,11 @@ type Miss = (i64, i64, i64, i64);
 fn advice(recipe: &Recipe, small: &str, other: &str) -> String {
     if recipe.commitment.is_some() {
         return format!(
-            "{small}, {other}, commit to the changed recipe with `arcade release RECIPE --commit`, and start over"
+            "{small}, or {other}; then commit to the changed recipe with `arcade release RECIPE --commit`, and \
+             start over"
         );
     }
-    format!("{small} and continue with --resume, which keeps finished jobs; {other}, and start over")
+    format!("{small} and continue with --resume, which keeps finished jobs; or {other}, and start over")
 }
 
 /// Selects the requested number of contenders from each part, and returns their indices in ascending order. The jobs'
@@ -216,15 +217,11 @@ pub(super) fn select(
             let why = [failed.reasons(), reasons(&why)].into_iter().filter(|why| !why.is_empty()).join(", ");
             let part = part.name();
             let advice = if failed.rejections.contains_key(NO_RULES) {
-                let small = format!("there are no rules for further jobs: lower `{part}.games`");
-                advice(
-                    recipe,
-                    &small,
-                    "or leave out the earlier releases that have used them, or add kernels",
-                )
+                let small = format!("there are no rules for further jobs: either lower `{part}.games`");
+                advice(recipe, &small, "leave out the earlier releases that have used them, or add kernels")
             } else {
-                let small = format!("raise `{part}.candidates`");
-                advice(recipe, &small, "or raise the tries or relax the criteria")
+                let small = format!("either raise `{part}.candidates`");
+                advice(recipe, &small, "raise the tries or relax the criteria")
             };
             return Err(MintError::TooFew { part, asked, there, why, advice });
         }
@@ -246,8 +243,8 @@ pub(super) fn select(
     if missed.is_empty() {
         return Ok(taken);
     }
-    let small = "raise `generated.candidates` or `corpus.candidates`, or relax the quotas";
-    let advice = advice(recipe, small, "or add kernels");
+    let small = "either raise `generated.candidates` or `corpus.candidates` or relax the quotas";
+    let advice = advice(recipe, small, "add kernels");
     Err(MintError::Uneven { candidates: fit.len(), missed, advice })
 }
 

@@ -58,7 +58,7 @@ pub struct Touch {
     pub gives: Vec<(SpriteType, i32)>,
     /// `true` if the avatar reappears at the exit to which the sprite leads.
     pub teleports: bool,
-    /// The types whose sprites are all removed or changed, wherever they are.
+    /// The types that a touch removes or changes as a whole: every sprite of the type, anywhere on the board.
     pub opens: Vec<SpriteType>,
     /// The types of the sprites that appear. The type that the avatar turns into is included only if a win
     /// requires it.

@@ -4,7 +4,8 @@
 use super::*;
 use engine::Action;
 
-/// Returns a game with paths, the player's `hero` and an inert `rock`.
+/// Returns the analysis of a game with the given sprites, rules and terminations, and with paths (`obs=wall`), the
+/// player's `hero` and an inert `rock`.
 fn with(sprites: &str, rules: &str, ends: &str) -> Analysis {
     let source = format!(
         "BasicGame obs=wall\n  SpriteSet\n    hero > MovingAvatar\n    rock > Immovable\n{}  LevelMapping\n    A > hero\n    r > rock\n    x > one\n    y > two\n  InteractionSet\n{}  TerminationSet\n{}",

@@ -41,8 +41,8 @@ pub(super) enum Message<'a> {
         turn: u64,
         kinds: Vec<&'a str>,
     },
-    /// The current observation. An answer is expected, unless the turn was played before an interruption:
-    /// `{"action": …}`, or `{"actions": […]}` if the player commits to several actions.
+    /// The current observation. The answer is `{"action": …}`, or `{"actions": […]}` if the player commits to several
+    /// actions. No answer is expected if the turn was played before an interruption.
     Turn {
         /// The number of actions played before this decision.
         turn: u64,

@@ -208,8 +208,9 @@ impl Contrasts {
         let overall = Table::of(
             &format!("{id}-overall"),
             &format!("{title}, over all levels"),
-            "Difference between the rates (means over games of means over levels), with the 95% interval and the p-value of the paired t-test over games, which apply to games like these. Fewer than six \
-             games cannot show a difference at the 5% level. q: corrected for the pairs in this table \
+            "Difference: between the win rates (means over games of means over levels). Its 95% interval and p, \
+             from the paired t-test over games, apply to games like these (other games of this kind). Fewer than \
+             six games cannot show a difference at the 5% level. q: p corrected for the pairs in this table \
              (Benjamini–Hochberg). h: Cohen's effect size for the same rates (0.2 small, 0.5 medium, 0.8 large). Bounds: \
              the difference if all aborted episodes had gone against the first player, and if all had gone \
              in its favour. The last two columns apply to exactly these levels: the exact test within levels \

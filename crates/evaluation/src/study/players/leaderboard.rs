@@ -97,7 +97,7 @@ pub(crate) fn tables(study: &Study) -> Vec<Table> {
     let answers = Table::of(
         "answers",
         "Answers",
-        "Steps by the origin of their action. Tolerant: read from an answer that is not in the required \
+        "Steps by the kind of the player's answer. Tolerant: read from an answer that is not in the required \
          format. Invalid, refused and truncated answers have no effect in the game, and count against the \
          player. Tokens as counted by the provider, including cached answers.",
         &study.leaderboard,

@@ -92,7 +92,11 @@ pub(super) fn solvability(levels: &[SurveyedLevel]) -> Section {
     let unknown = |level: &SurveyedLevel| !solved(level) && !impossible(level);
     let share = |test: &dyn Fn(&SurveyedLevel) -> bool| Share::yes(levels.iter().map(test));
     Section::new("solvability", "Can the levels be won?", "")
-        .share("solved", "solved: an episode wins, confirmed by a replay", share(&solved))
+        .share(
+            "solved",
+            "solved: a winning episode was found, and a replay confirmed the win",
+            share(&solved),
+        )
         .share("impossible", "impossible: proven", share(&impossible))
         .share("unknown", "unknown: the budget was spent", share(&unknown))
 }

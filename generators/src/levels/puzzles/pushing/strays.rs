@@ -87,10 +87,8 @@ pub struct StrayLevels {
 
 impl StrayLevels {
     /// Creates a generator for rules with wandering deadly sprites.
-    ///
-    /// # Panics
-    /// Never panics, because without these sprites all rules are valid rules of pushing puzzles, as a test verifies.
     pub fn new(rules: PushRules, config: StrayConfig) -> StrayLevels {
+        // Without the wandering sprites, all rules are valid rules of pushing puzzles, as a test verifies.
         let calm = rules.without_strays().game();
         let analysis = Analysis::of(&calm);
         let palette = Palette::of(&analysis).expect("an avatar can be placed");
