@@ -148,9 +148,9 @@ fn methods(analysis: &Analysis, at: usize, makers: &[Option<&Encounter>]) -> Vec
 
 /// Returns `true` if sprites of the type can appear after the start.
 fn is_created(analysis: &Analysis, stype: SpriteType) -> bool {
-    let creates = |effect: &EffectSummary| match effect {
-        EffectSummary::Become(to) | EffectSummary::BecomeAll(_, to) | EffectSummary::Make(to) => *to == stype,
-        _ => false,
+    let creates = |effect: &EffectSummary| {
+        let created = matches!(effect, EffectSummary::Become(to) | EffectSummary::Make(to) if *to == stype);
+        created || matches!(effect, EffectSummary::BecomeAll(_, to) if *to == stype)
     };
     analysis.encounters.iter().any(|met| met.does(creates))
         || analysis.facts.iter().any(|facts| facts.makes.contains(&stype))
