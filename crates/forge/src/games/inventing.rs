@@ -194,6 +194,7 @@ fn axes() -> Vec<Axis> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::games::GameEffort;
     use crate::pipeline::tests::order;
     use base::Seed;
 
