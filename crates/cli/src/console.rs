@@ -1,11 +1,11 @@
 //! Standard output, standard error and progress bars.
 
 use crate::failure::{Answer, ENVIRONMENT, Failure, NO};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use report::{is_invisible, visible_lines};
 use serde::Serialize;
 use std::borrow::Cow;
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -28,7 +28,7 @@ struct Output {
 }
 
 impl Output {
-    fn write(&mut self, target: &mut impl Write, text: std::fmt::Arguments<'_>) {
+    fn write(&mut self, target: &mut impl Write, text: fmt::Arguments<'_>) {
         if self.is_closed {
             return;
         }
@@ -51,7 +51,7 @@ impl Console {
     /// Writes to standard output. If the reader disconnects early, the subcommand still runs to completion
     /// and keeps its exit status. [`finish`](Console::finish) reports a full device, after the subcommand has
     /// written its files.
-    fn out(&self, text: std::fmt::Arguments<'_>, is_document: bool) {
+    fn out(&self, text: fmt::Arguments<'_>, is_document: bool) {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
         output.is_documented |= is_document;
         output.write(&mut io::stdout().lock(), text);
@@ -179,12 +179,24 @@ impl Console {
             },
         );
         let style = ProgressStyle::with_template(
-            "{prefix:>12} [{wide_bar:.cyan}] {pos}/{len} {elapsed_precise}, {eta} left {msg}",
+            "{prefix:>12} [{wide_bar:.cyan}] {pos}/{len} {elapsed_precise}{left} {msg}",
         );
-        bar.set_style(style.expect("the template is well-formed").progress_chars("=> "));
+        let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
+            let _ = text.write_str(&time_left(state.pos(), state.eta()));
+        };
+        let style = style.expect("the template is well-formed").with_key("left", left);
+        bar.set_style(style.progress_chars("=> "));
         bar.set_prefix(what);
         bar.enable_steady_tick(Duration::from_millis(200));
         bar
+    }
+}
+
+/// Returns the remaining time in a progress bar. It is unknown until the first item is done.
+fn time_left(done: u64, left: Duration) -> String {
+    match done {
+        0 => String::new(),
+        _ => format!(", {:#} left", HumanDuration(left)),
     }
 }
 
@@ -280,6 +292,12 @@ mod tests {
             output.write(&mut later, format_args!("more"));
             assert!(later.is_empty());
         }
+    }
+
+    #[test]
+    fn the_remaining_time_is_unknown_at_first() {
+        assert_eq!(time_left(0, Duration::ZERO), "");
+        assert_eq!(time_left(2, Duration::from_secs(10)), ", 10s left");
     }
 
     #[track_caller]

@@ -1,10 +1,11 @@
 //! Tests of the first steps of new users: `arcade new`, `arcade recipes new`, the tutorials of the book, and the book's
 //! search.
 
-use crate::arcade::{copy_of_tiny, files, run, text};
+use crate::arcade::{MINT_OUTPUT, TINY, arcade, copy_of_tiny, files, run, text};
 use serde_json::{Value, json};
 use snapshots::{Recipe, Secret, follow};
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 #[track_caller]
@@ -176,14 +177,85 @@ fn commands(page: &str) -> Vec<Vec<&str>> {
     lines.filter_map(|line| Some(line.strip_prefix("arcade ")?.split_whitespace().collect())).collect()
 }
 
+/// A command on a page, with the output that the page shows for it.
+struct Shown<'a> {
+    command: Vec<&'a str>,
+    output: Option<&'a str>,
+}
+
+/// Returns a page's commands in order. The output of a command is shown below it, in a `text` block that begins with
+/// `$ arcade`, or in the `text` block that follows the command's own block.
+fn shown(page: &str) -> Vec<Shown<'_>> {
+    fn words(line: &str) -> Option<Vec<&str>> {
+        Some(line.strip_prefix("arcade ")?.split_whitespace().collect())
+    }
+    let mut found: Vec<Shown<'_>> = Vec::new();
+    let mut follows_commands = false;
+    for block in page.split("```").skip(1).step_by(2) {
+        let (language, text) = block.split_once('\n').unwrap_or((block, ""));
+        let with_output = |part| {
+            let (line, output): (&str, &str) = str::split_once(part, '\n')?;
+            Some(Shown { command: words(line)?, output: Some(output) })
+        };
+        match language {
+            "sh" => {
+                found.extend(text.lines().filter_map(words).map(|command| Shown { command, output: None }))
+            }
+            "text" if text.starts_with("$ ") => {
+                found.extend(text.split("$ ").skip(1).filter_map(with_output));
+            }
+            "text" if follows_commands => found.last_mut().expect("there was a command").output = Some(text),
+            _ => {}
+        }
+        follows_commands = language == "sh" && text.contains("arcade ");
+    }
+    found
+}
+
+/// Checks the output on a page, in which `…` stands for any text.
+#[track_caller]
+fn check_output(shown: &str, output: &str) {
+    let (shown, mut rest) = (shown.trim_end(), output.trim_end());
+    let mut parts = shown.split('…');
+    let first = parts.next().unwrap_or_default();
+    rest = rest.strip_prefix(first).unwrap_or_else(|| panic!("not `{first}`:\n{output}"));
+    let parts: Vec<&str> = parts.collect();
+    for (at, part) in parts.iter().enumerate() {
+        let place = if at + 1 == parts.len() { rest.rfind(part) } else { rest.find(part) };
+        rest = &rest[place.unwrap_or_else(|| panic!("no `{part}`:\n{output}")) + part.len()..];
+    }
+    assert!(rest.is_empty() || shown.ends_with('…'), "the page does not show `{rest}`");
+}
+
+impl Shown<'_> {
+    /// Runs the command, and compares its output, in the order of a terminal, with the page.
+    #[track_caller]
+    fn check(&self, folder: &Path) -> String {
+        let is_no = |output: &str| output.contains("FAILS") || output.contains("does NOT verify");
+        let (mut reader, writer) = std::io::pipe().unwrap();
+        let mut command = arcade(folder);
+        command.args(&self.command).stdout(writer.try_clone().unwrap()).stderr(writer);
+        let mut child = command.spawn().unwrap();
+        // The reader sees the end only after the command, which owns the other end, is dropped.
+        drop(command);
+        let mut output = String::new();
+        reader.read_to_string(&mut output).unwrap();
+        let status = child.wait().unwrap().code();
+        let expect = i32::from(self.output.is_some_and(is_no));
+        assert_eq!(status, Some(expect), "arcade {:?}\n{output}", self.command);
+        self.output.iter().for_each(|shown| check_output(shown, &output));
+        output
+    }
+}
+
 #[test]
 fn the_first_game_works_as_printed() {
     let page = include_str!("../../../../docs/start/first-game.md");
     let home = tempfile::tempdir().unwrap();
     let folder = home.path();
     let mut validated = 0;
-    for command in commands(page) {
-        match command[..] {
+    for shown in shown(page) {
+        match shown.command[..] {
             // These commands wait for a person.
             ["play", game, ..] | ["studio", game, ..] => {
                 run(folder, &["describe", game], 0);
@@ -198,36 +270,61 @@ fn the_first_game_works_as_printed() {
             }
             _ => {}
         }
-        let output = run(folder, &command, 0);
-        validated += usize::from(command[0] == "validate" && text(&output.stdout).contains("passes: won in"));
+        let output = shown.check(folder);
+        validated += usize::from(shown.command[0] == "validate" && output.contains("passes: won in"));
     }
-    assert_eq!(validated, 2);
-    says(folder, &["validate", "shell-beach"], 1, &["won in its first tick"]);
+    assert_eq!(validated, 4);
 }
 
-/// Runs a page's commands in a folder with the release `tiny`. Skips commands that mint, and commands that
-/// wait for a person.
-fn work_as_printed(page: &str) -> usize {
+/// Runs a page's commands in a folder with the release `tiny`, and compares their outputs with the page. Does not mint
+/// again, and skips commands that wait for a person. Returns the number of commands and of compared outputs.
+fn work_as_printed(page: &str) -> (usize, usize) {
     let (home, root) = copy_of_tiny();
     let folder = home.path();
     fs::create_dir(folder.join("releases")).unwrap();
     fs::rename(root, folder.join("releases/tiny")).unwrap();
-    let commands = commands(page);
-    for command in commands.iter().filter(|command| !["release", "regenerate", "play"].contains(&command[0]))
-    {
-        run(folder, command, 0);
+    let (commands, mut compared) = (shown(page), 0);
+    for shown in &commands {
+        match (shown.command[0], shown.output) {
+            ("regenerate" | "play", _) | ("release", None) => continue,
+            ("release", Some(output)) => {
+                // The shared mint is in a different folder.
+                let minted = fs::read_to_string(TINY.path().join(MINT_OUTPUT)).unwrap();
+                check_output(&output.replace("releases/tiny", "tiny"), &minted);
+            }
+            ("verify", Some(output)) if output.contains("altered") => {
+                // At this point, the page has asked the person following it to change a character.
+                let path = output.split(':').next().unwrap();
+                let level = folder.join("releases/tiny").join(path);
+                let text = fs::read_to_string(&level).unwrap();
+                fs::write(&level, text.replacen("\nw.", "\nww", 1)).unwrap();
+                shown.check(folder);
+                fs::write(&level, text).unwrap();
+            }
+            _ => drop(shown.check(folder)),
+        }
+        compared += usize::from(shown.output.is_some());
     }
-    commands.len()
+    (commands.len(), compared)
 }
 
 #[test]
 fn the_first_release_works_as_printed() {
-    assert!(work_as_printed(include_str!("../../../../docs/start/first-release.md")) >= 7);
+    let page = include_str!("../../../../docs/start/first-release.md");
+    assert_eq!(work_as_printed(page), (10, 3));
 }
 
 #[test]
 fn the_first_evaluation_works_as_printed() {
-    assert!(work_as_printed(include_str!("../../../../docs/start/first-evaluation.md")) >= 3);
+    let page = include_str!("../../../../docs/start/first-evaluation.md");
+    assert_eq!(work_as_printed(page), (4, 4));
+}
+
+#[test]
+fn the_readme_shows_real_output() {
+    let readme = include_str!("../../../../README.md");
+    let (tried, _) = readme.split_once("## What to do next").unwrap();
+    assert_eq!(work_as_printed(tried), (2, 2));
 }
 
 /// Returns the recipe for a month that is minted in seconds. `seed` is the line that replaces the seed.

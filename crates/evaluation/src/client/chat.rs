@@ -176,6 +176,8 @@ pub struct ChatError {
 pub enum ChatErrorKind {
     /// Every try failed because of the network or the server.
     Infrastructure,
+    /// The first connection to the server was refused, so no server seems to be running.
+    Unreachable,
     /// The request would exceed a cap on cost, tokens or requests.
     Budget,
     /// The server rejected the request (400, 401, 403, 404, 422), so retrying would not help.

@@ -15,7 +15,8 @@ use super::wire::Wire;
 use crate::error::EvaluationError;
 use base::Digest;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex};
 
 /// A model ready to answer requests.
 pub struct Connection {
@@ -112,6 +113,9 @@ pub fn connect_with(
         cache: options.cache.as_deref().map(Cache::open).transpose()?,
         caps: caps.clone(),
         tries: options.tries,
+        is_reached: AtomicBool::new(false),
+        on_failure: options.on_failure.clone(),
+        reported: Mutex::default(),
         spec,
         key,
         clock,

@@ -17,6 +17,8 @@ pub(super) enum Fault {
         message: String,
         wait: Option<Duration>,
     },
+    /// The first connection was refused, so there is probably no server.
+    Unreachable { message: String },
     /// A permanent failure: the server will always reject this request.
     Final {
         status: u16,
@@ -247,7 +249,11 @@ mod tests {
             for provider in [Provider::OpenAi, Provider::Anthropic, Provider::Gemini] {
                 let message = match classify(provider, &reply(status, &body), SystemTime::UNIX_EPOCH) {
                     Ok(answer) => answer.text,
-                    Err(Fault::Transient { message, .. } | Fault::Final { message, .. }) => message,
+                    Err(
+                        Fault::Transient { message, .. }
+                        | Fault::Unreachable { message }
+                        | Fault::Final { message, .. },
+                    ) => message,
                 };
                 prop_assert!(message.chars().count() <= MAX_MESSAGE + 1 && !message.contains(char::is_control));
             }

@@ -25,7 +25,7 @@ pub use chat::{
 };
 pub use clock::{Clock, SystemClock};
 pub use connect::{Connection, ModelSettings, connect, connect_with, price, settings};
-pub use options::ModelOptions;
+pub use options::{ModelOptions, OnFailure};
 pub(crate) use provider::Content;
 pub use provider::Provider;
 pub use spec::{ModelSpec, Server};

@@ -2,8 +2,10 @@
 
 use super::chat::Decoding;
 use super::spending::caps::Limits;
+use std::fmt;
 use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 base::with_defaults! {
@@ -40,6 +42,18 @@ base::with_defaults! {
         pub connect_timeout: Duration = Duration::from_secs(10),
         /// The maximum size of a reply, in bytes.
         pub reply_limit: u64 = 4 << 20,
+        /// The function that reports failed tries at once.
+        pub on_failure: Option<OnFailure> = None,
+    }
+}
+
+/// A function that shows a message about a failed try to the user. Threads may call it at the same time.
+#[derive(Clone)]
+pub struct OnFailure(pub Arc<dyn Fn(&str) + Send + Sync>);
+
+impl fmt::Debug for OnFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("OnFailure")
     }
 }
 

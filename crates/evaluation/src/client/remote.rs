@@ -6,14 +6,17 @@ use super::chat::{ChatError, ChatErrorKind, ChatReply, ChatRequest, Failure, Mod
 use super::clock::Clock;
 use super::fault::{Fault, classify, shorten};
 use super::key::Key;
+use super::options::OnFailure;
 use super::pace::Pace;
 use super::spec::ModelSpec;
 use super::spending::caps::Caps;
 use super::spending::estimate::prompt_tokens;
-use super::wire::Wire;
+use super::wire::{Wire, WireError};
 use base::{Digest, Sampler};
+use std::collections::BTreeMap;
 use std::num::NonZeroU32;
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 pub(super) struct Remote {
@@ -25,6 +28,12 @@ pub(super) struct Remote {
     pub(super) cache: Option<Cache>,
     pub(super) tries: NonZeroU32,
     pub(super) clock: Arc<dyn Clock>,
+    /// `true` once a connection was not refused. Before that, a refused connection means that no server is running.
+    pub(super) is_reached: AtomicBool,
+    /// A function that reports failures while the request is still being retried.
+    pub(super) on_failure: Option<OnFailure>,
+    /// The time of the last report about each HTTP status; `None` stands for failures without a status.
+    pub(super) reported: Mutex<BTreeMap<Option<u16>, Duration>>,
 }
 
 /// The wait after the first failed try. The wait doubles after each further failure.
@@ -35,6 +44,9 @@ const MAX_WAIT: Duration = Duration::from_secs(60);
 
 /// The maximum wait that a server can request. The client gives up if the server requests more.
 const MAX_SERVER_WAIT: Duration = Duration::from_secs(300);
+
+/// The minimum time between two reports about the same HTTP status.
+const REPORT_EVERY: Duration = Duration::from_secs(60);
 
 impl Model for Remote {
     fn chat(&self, request: &ChatRequest) -> Result<ChatReply, ChatError> {
@@ -92,9 +104,16 @@ impl Remote {
                     failures.push(Failure { status: Some(status), message: message.clone(), waited_ms: 0 });
                     return Err(self.rejected(status, &message, failures));
                 }
+                Err(Fault::Unreachable { message }) => {
+                    failures.push(Failure { status: None, message, waited_ms: 0 });
+                    return Err(self.unreachable(failures));
+                }
                 Err(Fault::Transient { status, message, wait }) => (status, message, wait),
             };
             let number = failures.len() as u32 + 1;
+            if number == 1 {
+                self.report_failure(status, &message);
+            }
             let too_long = requested_wait.is_some_and(|time| time > MAX_SERVER_WAIT);
             if number == self.tries.get() || too_long {
                 failures.push(Failure { status, message, waited_ms: 0 });
@@ -116,9 +135,17 @@ impl Remote {
             Some(key) => key.hide_in_message(&words),
             None => words,
         };
-        let mut reply = outcome.map_err(|(status, problem)| {
-            let message = shorten(&hide(problem));
-            Fault::Transient { status, message, wait: None }
+        let is_refused = matches!(&outcome, Err(error) if error.is_refused);
+        let was_reached = match is_refused {
+            true => self.is_reached.load(Ordering::Relaxed),
+            false => self.is_reached.swap(true, Ordering::Relaxed),
+        };
+        let mut reply = outcome.map_err(|WireError { status, message, is_refused }| {
+            let message = shorten(&hide(message));
+            match is_refused && !was_reached {
+                true => Fault::Unreachable { message },
+                false => Fault::Transient { status, message, wait: None },
+            }
         })?;
         if let Some(key) = &self.key {
             let answers = (200..300).contains(&reply.status);
@@ -130,6 +157,7 @@ impl Remote {
             Err(Fault::Transient { status, message, wait }) => {
                 Err(Fault::Transient { status, message: hide(message), wait })
             }
+            Err(Fault::Unreachable { message }) => Err(Fault::Unreachable { message: hide(message) }),
             Err(Fault::Final { status, message }) => Err(Fault::Final { status, message: hide(message) }),
         }
     }
@@ -163,6 +191,29 @@ impl Remote {
         };
         let message = format!("{host} rejected the request ({status}: {words}){next}");
         ChatError { kind: ChatErrorKind::Rejected, message, failures }
+    }
+
+    /// Reports the first failed try of a request, so that the user knows why nothing happens. Failures with the same
+    /// status are reported once per minute, because a server may limit the rate of most requests.
+    fn report_failure(&self, status: Option<u16>, message: &str) {
+        let Some(OnFailure(report)) = &self.on_failure else { return };
+        let now = self.clock.elapsed();
+        let mut reported = self.reported.lock().expect("no holder panics");
+        let is_due = reported.get(&status).is_none_or(|&last| now.saturating_sub(last) >= REPORT_EVERY);
+        if is_due {
+            reported.insert(status, now);
+            let status = status.map(|status| format!("{status}: ")).unwrap_or_default();
+            let (host, tries) = (&self.spec.server.host, self.tries);
+            let next =
+                if tries.get() == 1 { String::new() } else { format!("; it is tried up to {tries} times") };
+            report(&format!("a request to {host} failed ({status}{message}){next}"));
+        }
+    }
+
+    fn unreachable(&self, failures: Vec<Failure>) -> ChatError {
+        let host = &self.spec.server.host;
+        let message = format!("no server answers at {host} (connection refused); is it running?");
+        ChatError { kind: ChatErrorKind::Unreachable, message, failures }
     }
 
     fn given_up(&self, failures: Vec<Failure>, requested_wait: Option<Duration>) -> ChatError {

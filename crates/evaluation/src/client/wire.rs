@@ -2,7 +2,7 @@
 
 use super::options::ModelOptions;
 use super::spec::Server;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::time::Duration;
 use ureq::http::HeaderValue;
 use ureq::http::header::{LOCATION, RETRY_AFTER};
@@ -14,6 +14,15 @@ pub(super) struct Wire {
     reply_limit: u64,
     timeout: Duration,
     connect_timeout: Duration,
+}
+
+/// The reason why an exchange yielded no reply.
+pub(super) struct WireError {
+    /// The HTTP status, if the reply got that far.
+    pub(super) status: Option<u16>,
+    pub(super) message: String,
+    /// `true` if the server's machine refused the connection, usually because no server is running.
+    pub(super) is_refused: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -46,18 +55,22 @@ impl Wire {
     /// Posts a JSON body and reads the reply.
     ///
     /// # Errors
-    /// Returns a message if the reply is missing, incomplete, too large, or not text.
+    /// Returns an error if the reply is missing, incomplete, too large, or not text.
     pub(super) fn post(
         &self,
         url: &str,
         headers: &[(&'static str, HeaderValue)],
         body: &[u8],
-    ) -> Result<HttpReply, (Option<u16>, String)> {
+    ) -> Result<HttpReply, WireError> {
         let mut request = self.agent.post(url).content_type("application/json");
         for (name, value) in headers {
             request = request.header(*name, value.clone());
         }
-        let mut response = request.send(body).map_err(|error| (None, self.in_words(error)))?;
+        let mut response = request.send(body).map_err(|error| WireError {
+            status: None,
+            is_refused: matches!(&error, Error::Io(error) if error.kind() == ErrorKind::ConnectionRefused),
+            message: self.in_words(error),
+        })?;
         let status = response.status().as_u16();
         let header =
             |name| response.headers().get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
@@ -66,12 +79,13 @@ impl Wire {
         // Reading one byte beyond the limit detects a reply that is too large.
         let reader = response.body_mut().as_reader().take(self.reply_limit.saturating_add(1));
         let read = { reader }.read_to_end(&mut bytes);
-        read.map_err(|error| (Some(status), self.in_words(Error::from(error))))?;
+        let broken = |message| WireError { status: Some(status), message, is_refused: false };
+        read.map_err(|error| broken(self.in_words(Error::from(error))))?;
         if bytes.len() as u64 > self.reply_limit {
-            return Err((Some(status), format!("a body of more than {} bytes", self.reply_limit)));
+            return Err(broken(format!("a body of more than {} bytes", self.reply_limit)));
         }
-        let body = String::from_utf8(bytes)
-            .map_err(|_| (Some(status), "a body that is not UTF-8 text".to_owned()))?;
+        let body =
+            String::from_utf8(bytes).map_err(|_| broken("a body that is not UTF-8 text".to_owned()))?;
         Ok(HttpReply { status, retry_after, location, body })
     }
 

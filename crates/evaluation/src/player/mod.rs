@@ -125,6 +125,9 @@ pub enum Halt {
     /// Every try failed because of the network, the server or the player's process.
     #[error("{0}")]
     Infrastructure(String),
+    /// No server accepts connections, so the evaluation cannot begin.
+    #[error("{0}")]
+    Unreachable(String),
     /// The next request would exceed the given spending limit.
     #[error("{0}")]
     Budget(String),
@@ -151,6 +154,7 @@ impl From<ChatError> for Halt {
     fn from(error: ChatError) -> Halt {
         match error.kind {
             ChatErrorKind::Infrastructure => Halt::Infrastructure(error.message),
+            ChatErrorKind::Unreachable => Halt::Unreachable(error.message),
             ChatErrorKind::Budget => Halt::Budget(error.message),
             ChatErrorKind::Rejected => match error.failures.last().and_then(|failure| failure.status) {
                 // These codes mean that only this request is at fault, whereas a wrong key or model affects
@@ -167,7 +171,7 @@ impl Halt {
     /// record.
     pub fn event(&self) -> Option<Event> {
         let reason = match self {
-            Halt::Infrastructure(_) => "infrastructure",
+            Halt::Infrastructure(_) | Halt::Unreachable(_) => "infrastructure",
             Halt::Budget(_) => "budget",
             Halt::Rejected(_) | Halt::Unfit(_) => "rejected",
             Halt::Unusable(_) => "unusable",

@@ -330,8 +330,8 @@ impl Evaluation {
     /// returns the next episodes' indices in [`Evaluation::tasks`], or an empty list to finish. Episodes that
     /// ended in an earlier run keep their results.
     ///
-    /// The remaining episodes are left open if a cap is reached, if the server rejects a request, or if
-    /// environment failures abort `FAILURES_IN_A_ROW` consecutive episodes.
+    /// The remaining episodes are left open if a cap is reached, if the server rejects a request, if no server accepts
+    /// the first connection, or if environment failures abort `FAILURES_IN_A_ROW` consecutive episodes.
     ///
     /// # Errors
     /// Returns an error if a log cannot be read or written, or if the log of an ended episode contradicts the
@@ -428,7 +428,13 @@ impl Evaluation {
             open: tally.episodes - tally.ended,
             infrastructure: matches!(
                 halted,
-                Some(Halt::Infrastructure(_) | Halt::Rejected(_) | Halt::Unfit(_) | Halt::Log(_))
+                Some(
+                    Halt::Infrastructure(_)
+                        | Halt::Unreachable(_)
+                        | Halt::Rejected(_)
+                        | Halt::Unfit(_)
+                        | Halt::Log(_)
+                )
             ),
             stopped: stops
                 .into_iter()

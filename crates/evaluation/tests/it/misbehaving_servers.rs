@@ -3,12 +3,12 @@
 
 use crate::server::{FakeClock, Response, Server};
 use evaluation::client::{
-    ChatErrorKind, ChatMessage, ChatRequest, Connection, Decoding, Finish, Limits, ModelOptions, Role, Spent,
-    connect_with,
+    ChatErrorKind, ChatMessage, ChatRequest, Clock, Connection, Decoding, Finish, Limits, ModelOptions,
+    OnFailure, Role, Spent, connect_with,
 };
 use serde_json::json;
 use std::num::{NonZeroU32, NonZeroU64, NonZeroUsize};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
@@ -134,15 +134,60 @@ fn hanging_servers_time_out() {
     });
 }
 
+/// If the first connection is refused, no server is running, and the request is not retried.
 #[test]
-fn unreachable_servers_are_reported() {
+fn refused_first_connections_are_final() {
     let server = Server::scripted(vec![Response::Hang]);
-    let url = server.base_url();
+    let (connection, clock) = connect(&server, |_| {});
+    let host = connection.settings.server.clone();
     drop(server);
-    let elsewhere = Server::scripted(vec![Response::Hang]);
-    let (connection, _) = connect(&elsewhere, |options| options.base_url = Some(url));
-    let error = connection.model.chat(&request("Now?")).unwrap_err();
-    assert_eq!((error.kind, error.failures.len()), (ChatErrorKind::Infrastructure, 3));
+    for _ in 0..2 {
+        let error = connection.model.chat(&request("Now?")).unwrap_err();
+        assert_eq!((error.kind, error.failures.len()), (ChatErrorKind::Unreachable, 1));
+        let expect = format!("no server answers at {host} (connection refused); is it running?");
+        assert_eq!(error.message, expect);
+    }
+    assert!(clock.sleeps().is_empty());
+    assert_eq!(connection.caps.spent(), Spent::default());
+}
+
+/// A server that has answered may come back, so requests to it are retried.
+#[test]
+fn later_refused_connections_are_retried() {
+    for first in [Response::completion("up"), Response::reply(404, "{}"), Response::Cut(Vec::new())] {
+        let server = Server::scripted(vec![first.clone()]);
+        let (connection, _) = connect(&server, |_| {});
+        let _ = connection.model.chat(&request("Now?"));
+        drop(server);
+        let error = connection.model.chat(&request("And now?")).unwrap_err();
+        assert_eq!((error.kind, error.failures.len()), (ChatErrorKind::Infrastructure, 3), "{first:?}");
+    }
+}
+
+/// The first failed try of a request is reported before the wait. Each status is reported once per minute.
+#[test]
+fn failed_tries_are_reported_at_once() {
+    let busy = || Response::reply(503, json!({ "error": { "message": "busy" } }).to_string());
+    let done = || Response::completion("up");
+    let acts = vec![busy(), busy(), done(), Response::reply(429, "{}"), done(), busy(), done(), busy()];
+    let server = Server::scripted(acts);
+    let told = Arc::new(Mutex::new(Vec::new()));
+    let (connection, clock) = connect(&server, |options| {
+        let told = told.clone();
+        options.on_failure =
+            Some(OnFailure(Arc::new(move |text| told.lock().unwrap().push(text.to_owned()))));
+    });
+    let ask = |expect: &[&str]| {
+        let _ = connection.model.chat(&request("Now?"));
+        let host = &connection.settings.server;
+        let said = |words: &&str| format!("a request to {host} failed ({words}); it is tried up to 3 times");
+        assert_eq!(std::mem::take(&mut *told.lock().unwrap()), expect.iter().map(said).collect::<Vec<_>>());
+    };
+    ask(&["503: busy"]);
+    ask(&["429: {}"]);
+    ask(&[]);
+    clock.sleep(Duration::from_secs(60));
+    ask(&["503: busy"]);
 }
 
 #[test]

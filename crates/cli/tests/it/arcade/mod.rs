@@ -8,13 +8,17 @@ use std::process::{Child, Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 use tempfile::TempDir;
 
-/// A folder with one mint of the recipe `tiny`, in its subfolder `tiny`. Tests that only read or copy the
-/// folder share it.
+/// A folder with one mint of the recipe `tiny`, in its subfolder `tiny`, and its output, in [`MINT_OUTPUT`]. Tests that
+/// only read or copy the folder share it.
 pub(crate) static TINY: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
-    run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
+    let output = run(folder.path(), &["release", "tiny", "--out", "tiny", "--jobs", "2"], 0);
+    fs::write(folder.path().join(MINT_OUTPUT), output.stdout).unwrap();
     folder
 });
+
+/// The file in [`TINY`] with the standard output of the mint.
+pub(crate) const MINT_OUTPUT: &str = "mint.txt";
 
 /// A recipe with four jobs that each take less than a second. With this seed, few candidates fail.
 pub(crate) const SLICES_RECIPE: &str = "name = 'slices'\ndescription = 'x'\nseed = 'pieces'\n[generated]\ngames = 1\n\

@@ -159,6 +159,37 @@ fn failing_servers_leave_episodes_open() {
     }
 }
 
+/// If no server is running, the evaluation ends at once, and can be continued when the server runs.
+#[test]
+fn an_absent_server_is_reported_at_once() {
+    let server = Server::start(answer);
+    let url = server.base_url();
+    drop(server);
+    let home = tempfile::tempdir().unwrap();
+    let told = text(&run(home.path(), &asking(&url, &[]), 3).stderr);
+    let host = url.trim_start_matches("http://").trim_end_matches("/v1");
+    let expect = format!(
+        "error: 2 episodes are unfinished; continue with --resume: no server answers at {host} (connection refused); \
+         is it running?\n"
+    );
+    assert_eq!(told, expect);
+    let server = Server::start(answer);
+    let played = json(&run(home.path(), &asking(&server.base_url(), &["--resume"]), 0));
+    assert_eq!((&played["tally"]["open"], &played["tally"]["ended"]), (&0.into(), &2.into()));
+}
+
+/// A failed attempt is reported before the evaluation ends, also if standard error is not a terminal.
+#[test]
+fn failed_attempts_are_reported() {
+    let server = Server::start(|number, asked| match number {
+        0 => Response::reply(500, "oops"),
+        _ => answer(number, asked),
+    });
+    let home = tempfile::tempdir().unwrap();
+    let told = text(&run(home.path(), &asking(&server.base_url(), &["--concurrency", "1"]), 0).stderr);
+    assert!(told.contains("failed (500: oops); it is tried up to 8 times"), "{told}");
+}
+
 #[test]
 fn caps_hold_and_can_be_raised() {
     let server = Server::start(answer);

@@ -137,7 +137,7 @@ impl Replays {
 
 fn note(episodes: usize, left_out: u64) -> String {
     let mut note = format!(
-        "Up to {} episodes of each player: first episodes that were not won, one for each cause, starting \
+        "Up to {} of each player: first episodes that were not won, one for each cause, starting \
          with the most frequent cause of each kind and choosing the episode closest to a win. All other \
          episodes are in the logs. For episodes with more than {} decisions, only the first {FIRST} and \
          the last {LAST} decisions are shown.",
@@ -339,6 +339,13 @@ mod tests {
     fn equal_actions_are_counted() {
         let steps = [Action::Up, Action::Up, Action::Use, Action::Nil, Action::Nil, Action::Nil];
         assert_eq!(counted(&steps.map(|action| (action, Validity::Valid))), "up ×2, use, nil ×3");
+    }
+
+    #[test]
+    fn the_note_counts_episodes() {
+        assert!(note(4, 0).starts_with("Up to 4 episodes of each player: "));
+        assert!(note(1, 2).starts_with("Up to 1 episode of each player: "));
+        assert!(note(1, 2).ends_with(" 2 more episodes left out for lack of space."));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::shell;
 use base::MessagePath;
 use design::{DesignFolder, Designer, Reference, Results};
-use evaluation::client::{self, Caps, ModelOptions, ModelSettings, Price};
+use evaluation::client::{self, Caps, ModelOptions, ModelSettings, OnFailure, Price};
 use evaluation::player::mailbox::{Finished, Mailbox};
 use generators::GENERATION;
 use serde_json::{Value, json};
@@ -104,7 +104,8 @@ impl RequestedDesigner {
                 Ok(Connected { designer: Designer::Reference(*reference), caps: None, mailbox: None })
             }
             RequestedDesigner::Model(options, _) => {
-                let connection = client::connect(options)?;
+                let on_failure = Some(OnFailure(console.remarks()));
+                let connection = client::connect(&ModelOptions { on_failure, ..(**options).clone() })?;
                 connection.caps.charge_logged(&folder.all_events()?);
                 let (model, decoding) = (Arc::from(connection.model), connection.settings.decoding);
                 let designer = Designer::Model { model, decoding };

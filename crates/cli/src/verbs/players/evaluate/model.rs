@@ -2,9 +2,10 @@
 
 use super::Args;
 use super::prompt_args::PromptArgs;
+use crate::console::Console;
 use crate::failure::Failure;
 use crate::flags::client::ClientArgs;
-use evaluation::client::{self, Batch, Decoding, Estimate, ModelOptions, ModelSettings, Usd};
+use evaluation::client::{self, Batch, Decoding, Estimate, ModelOptions, ModelSettings, OnFailure, Usd};
 use evaluation::prompt::{Mode, PromptSettings, Prompter};
 use evaluation::run::Task;
 use evaluation::{Commitment, Entrant, Observed, SeriesPlace, Subject};
@@ -130,8 +131,10 @@ impl RequestedModel {
         subjects: &[Subject],
         max_steps: u64,
         commit: Commitment,
+        console: &Console,
     ) -> Result<ConnectedModel, Failure> {
-        let connection = client::connect(&self.options)?;
+        let on_failure = Some(OnFailure(console.remarks()));
+        let connection = client::connect(&ModelOptions { on_failure, ..self.options.clone() })?;
         Ok(ConnectedModel {
             model: Arc::from(connection.model),
             prompters: prompters(subjects, &self.prompts, max_steps, commit)?,

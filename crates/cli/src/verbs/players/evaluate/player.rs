@@ -174,7 +174,7 @@ impl RequestedPlayer {
                 return Ok(Connected { mailbox: Some(mailbox), ..contestant.into() });
             }
             RequestedPlayer::Model(model) => {
-                let model = Arc::new(model.connect(subjects, settings.max_steps, args.commit)?);
+                let model = Arc::new(model.connect(subjects, settings.max_steps, args.commit, console)?);
                 let connected = model.clone();
                 let contestant: PlayerOf = Box::new(move |task| connected.contestant(task));
                 return Ok(Connected { model: Some(model), ..contestant.into() });

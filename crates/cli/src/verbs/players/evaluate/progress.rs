@@ -63,7 +63,10 @@ impl Progress for Bar<'_> {
             if matches!(halt, Halt::Rejected(_) | Halt::Unfit(_)) {
                 self.refused.store(true, Ordering::Relaxed);
             }
-            self.bar.println(format!("{}: {halt}", task.file_name()));
+            // All episodes that have begun find no server, and the evaluation's error says so once.
+            if !matches!(halt, Halt::Unreachable(_)) {
+                self.bar.println(format!("{}: {halt}", task.file_name()));
+            }
         }
         self.bar.set_message(format!("{} won", self.won.load(Ordering::Relaxed)));
         self.bar.inc(1);
