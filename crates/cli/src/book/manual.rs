@@ -115,10 +115,11 @@ const COUNTED: usize = 10;
 /// Such a page ranks before all other pages.
 const EXPLAINED: usize = 3;
 
-/// Returns the pages that contain every word in `wanted`, best match first.
+/// Returns the pages that contain every word in `wanted`, best match first. A page whose title consists of these words
+/// comes before all others.
 pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
     let wanted: Vec<String> = words(wanted).collect();
-    let mut hits: Vec<((bool, usize), Hit<'a>)> = Vec::new();
+    let mut hits: Vec<((bool, bool, usize), Hit<'a>)> = Vec::new();
     for page in pages {
         let mut points = 0;
         let mut best: Option<(usize, usize, &str)> = None;
@@ -160,8 +161,10 @@ pub(crate) fn search<'a>(pages: &'a [Page], wanted: &str) -> Vec<Hit<'a>> {
             Section::HowTo | Section::Reference if page.folder() != DIAGNOSTICS => 2,
             _ => 1,
         };
+        let title = page.text.lines().next().unwrap_or_default();
+        let is_title = words(title).all(|own| wanted.iter().any(|word| is_form(&own, word)));
         let is_for_beginners = page.section() == Section::Start && lines >= EXPLAINED;
-        hits.push(((is_for_beginners, points * weight), Hit { page, line: shown(line) }));
+        hits.push(((is_title, is_for_beginners, points * weight), Hit { page, line: shown(line) }));
     }
     // The sort is stable, so pages with equal points stay in the order of the manual.
     hits.sort_by_key(|(points, _)| std::cmp::Reverse(*points));
