@@ -293,7 +293,7 @@ fn what_was_withheld_is_verified() {
         let (one, other) = (files[&won].clone(), files[&second].clone());
         files.extend([(won.clone(), other), (second.clone(), one)]);
     };
-    forged(&swap, &format!("{second}: the coin (the secret random choice) publishes this win"));
+    forged(&swap, &format!("{second}: the coin (the secret random choice) selects this withheld win"));
     let repeat = |files: &mut BTreeMap<String, Vec<u8>>| {
         files.insert(second.clone(), files[&won].clone());
     };

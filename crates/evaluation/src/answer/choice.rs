@@ -26,7 +26,7 @@ static ALONE: LazyLock<Regex> =
     LazyLock::new(|| pattern(r#"(?i)^[ \t*`"'(\[{_$]*(?P<word>[a-z]+)[ \t*`"'.!)\]}_$]*$"#));
 
 /// Reads an answer that is one of `words`, such as `yes` and `no`, and returns the word's index. The requested format
-/// is a last line such as `ANSWER: yes`. The last answer that is introduced in this way counts. If there is none, a
+/// is a last line such as `ANSWER: yes`. If the text has several such lines, the last one counts. If it has none, a
 /// word alone on the last line counts. Single letters must be upper-case unless a word such as "answer" introduces
 /// them. Cost: O(bytes).
 pub fn read_choice(text: &str, words: &[&str]) -> Reading<usize> {

@@ -5,7 +5,7 @@ use generators::boards::BoardBrief;
 use validators::CheckedCriteria;
 
 /// The minimum and maximum length of a shortest win in ticks, by the level's position in the game.
-const LENGTHS: [(usize, usize); 5] = [(12, 32), (22, 55), (25, 70), (28, 90), (30, 110)];
+const LENGTHS: [(usize, usize); 5] = [(12, 32), (25, 55), (28, 70), (32, 90), (40, 110)];
 
 /// The requirements for a board.
 #[derive(Clone, Debug)]

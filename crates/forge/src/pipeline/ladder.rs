@@ -42,8 +42,7 @@ impl Levels<'_> {
     /// passing candidate for the same position.
     ///
     /// # Errors
-    /// Returns an error if no candidate for a position passes, or if so many levels fail that the game itself is likely
-    /// to be at fault.
+    /// Returns an error if no candidate passes for a position, or if many levels fail, which is a sign of a bad game.
     pub(super) fn judge_by_ladder(
         &self,
         game: &Game,

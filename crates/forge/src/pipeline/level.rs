@@ -62,8 +62,8 @@ impl LevelTrial<'_> {
 
     pub(super) const OPEN_GROUND: Stage<Self> = Stage {
         name: "open ground",
-        purpose: "in a course, rejects a level with so many narrow cells that the game would fail even \
-                  if no other level had any",
+        purpose: "in a course, rejects a level whose narrow cells alone exceed the limit for the whole \
+                  game",
         criteria: CriterionSet::of(&[Criterion::OpenGround]),
         ..Stage::once(Self::refuse_narrow_ground)
     };

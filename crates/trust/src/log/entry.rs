@@ -54,7 +54,7 @@ pub enum Entry {
         parent: Option<Digest>,
         /// The release's commitment, if the release is sealed (its seed and witnesses are withheld).
         commitment: Option<Digest>,
-        /// The public random value mixed into the release's seed; `None` if there is none.
+        /// The public random value from which the release's seed was also derived; `None` if no such value was used.
         beacon: Option<Digest>,
         /// The digest of the signed statement about the release, if any.
         statement: Option<Digest>,

@@ -61,7 +61,7 @@ impl SecretGame {
         }
         let is_tossed = root.is_none_or(|root| publishes_sibling(root, one, other));
         (!is_tossed).then(|| {
-            "the coin (the secret random choice) publishes this sibling, but the other sibling is published".to_owned()
+            "the coin (the secret random choice) selects this withheld game for publication".to_owned()
         })
     }
 }
@@ -74,9 +74,8 @@ pub(super) fn pair_flaw(published: Option<&Episode>, second: &Episode, root: Opt
         return Some("the second win begins like the published win".to_owned());
     }
     let is_tossed = root.is_none_or(|root| publishes_win(root, published, second));
-    (!is_tossed).then(|| {
-        "the coin (the secret random choice) publishes this win, but the other win is published".to_owned()
-    })
+    (!is_tossed)
+        .then(|| "the coin (the secret random choice) selects this withheld win for publication".to_owned())
 }
 
 /// Returns a sentence about the problem with a game's pairs in a job's result; `None` if there is no problem. `root` is
@@ -152,7 +151,7 @@ mod tests {
     fn siblings_are_the_game_under_other_names() {
         let same = |_: &mut String, _: &mut Vec<String>| ();
         check(same, true, None);
-        check(same, false, Some("publishes this sibling"));
+        check(same, false, Some("selects this withheld game"));
         check(|text, _| text.clear(), true, Some("not a valid game"));
         check(|_, levels| levels[0] = "?".to_owned(), true, Some("lvl0.txt is not a level of this game"));
         check(|_, levels| levels.clear(), true, Some("the levels are not those"));
@@ -191,7 +190,7 @@ mod tests {
             let (published, withheld) =
                 if publishes_win(root, &one, &other) { (&one, &other) } else { (&other, &one) };
             assert_eq!(flaw(root, published, withheld), None);
-            assert!(flaw(root, withheld, published).unwrap().contains("publishes this win"));
+            assert!(flaw(root, withheld, published).unwrap().contains("selects this withheld win"));
         }
         assert!(
             flaw(Seed::from_text("x"), &one, &of(&[Up])).unwrap().contains("begins like the published win")

@@ -1,4 +1,4 @@
-//! `arcade study well`: estimates how many more games a chain of monthly releases can invent.
+//! `arcade study well`: estimates how many new games are left for a chain of monthly releases.
 
 use crate::console::Console;
 use crate::failure::{Answer, Failure};
