@@ -128,19 +128,33 @@ impl Census {
         others: &[&'static Mechanic],
         sampler: &mut Sampler,
     ) -> Option<&'static Mechanic> {
-        choose_one(is_ending, others, |mechanic| self.weight(mechanic), sampler)
+        choose_one(is_ending, others, &self.weights().of(), sampler)
     }
 
-    /// Returns the weight of a mechanic or ending in a draw. The weight decreases with the square of the number of uses
-    /// relative to the mean. It is higher for mechanics that are rarely part of a draw that can become a game.
-    fn weight(&self, mechanic: &Mechanic) -> u32 {
-        let (kind, prior) =
-            if mechanic.ending.is_some() { ("ending", ENDINGS) } else { ("mechanic", MECHANICS) };
-        let all = Mechanic::endings(mechanic.ending.is_some()).count().max(1);
-        let mean = self.of_kind(kind).map(|(_, uses)| u64::from(uses)).sum::<u64>() / all as u64;
-        let share = 64 * (mean + prior) / (u64::from(self.uses(kind, &mechanic.name)) + prior);
-        let weight = share * share * rarity(&mechanic.name) / 64;
-        u32::try_from(weight.max(1)).unwrap_or(u32::MAX)
+    /// Returns the weights of all mechanics and endings in a draw. A weight decreases with the square of the number of
+    /// uses relative to the mean. It is higher for mechanics that are rarely part of a draw that can become a game.
+    fn weights(&self) -> Weights {
+        let weights =
+            [("mechanic", MECHANICS, false), ("ending", ENDINGS, true)].map(|(kind, prior, are)| {
+                let all = Mechanic::endings(are).count().max(1);
+                let mean = self.of_kind(kind).map(|(_, uses)| u64::from(uses)).sum::<u64>() / all as u64;
+                let weight = move |mechanic: &'static Mechanic| {
+                    let share = 64 * (mean + prior) / (u64::from(self.uses(kind, &mechanic.name)) + prior);
+                    let weight = share * share * rarity(&mechanic.name) / 64;
+                    (mechanic.name.as_str(), u32::try_from(weight.max(1)).unwrap_or(u32::MAX))
+                };
+                Mechanic::endings(are).map(weight).collect::<Vec<_>>()
+            });
+        Weights(weights.into_iter().flatten().collect())
+    }
+}
+
+/// The weights of all mechanics and endings in a draw, by name.
+struct Weights(BTreeMap<&'static str, u32>);
+
+impl Weights {
+    fn of(&self) -> impl Fn(&Mechanic) -> u32 {
+        |mechanic| self.0.get(mechanic.name.as_str()).copied().unwrap_or_default()
     }
 }
 
@@ -199,26 +213,26 @@ impl Invention {
         let danger_only = Lead { ending: None, ..any_mechanic };
         // All draws may be unsound if the requested mechanics do not fit any others, or if the use counts favour
         // mechanics that do not fit together.
-        let empty = Census::default();
+        let (weights, equal) = (census.weights(), Census::default().weights());
         let tries = [
-            (config.lead, census, "choice"),
-            (any_mechanic, census, "choice without mechanic"),
-            (danger_only, census, "choice without ending"),
-            (Lead::default(), &empty, "any choice"),
+            (config.lead, &weights, "choice"),
+            (any_mechanic, &weights, "choice without mechanic"),
+            (danger_only, &weights, "choice without ending"),
+            (Lead::default(), &equal, "any choice"),
         ];
-        tries.into_iter().find_map(|(lead, census, name)| {
+        tries.into_iter().find_map(|(lead, weights, name)| {
             let config = InventionConfig { lead, ..config.clone() };
-            let attempt = |at| Invention::attempt(&config, census, seed.child(name, at));
+            let attempt = |at| Invention::attempt(&config, weights, seed.child(name, at));
             let mut drawn: Vec<Invention> = (0..CHOICES).filter_map(attempt).take(PROPOSALS).collect();
             drawn.sort_by_key(|drawn| (Reverse(drawn.tension()), census.familiarity(drawn)));
             drawn.into_iter().find(|drawn| drawn.build().is_ok())
         })
     }
 
-    fn attempt(config: &InventionConfig, census: &Census, seed: Seed) -> Option<Invention> {
+    fn attempt(config: &InventionConfig, weights: &Weights, seed: Seed) -> Option<Invention> {
         let sampler = &mut seed.child("mechanics", 0).sampler();
         let count = size(config, sampler);
-        let chosen = choose(count, config.lead, |mechanic| census.weight(mechanic), sampler)?;
+        let chosen = choose(count, config.lead, weights.of(), sampler)?;
         Invention::of_choice(chosen, sampler, seed)
     }
 
@@ -382,9 +396,7 @@ impl Draft {
                 return None;
             }
             let merged = Merged::of(members)?;
-            if merged.count(Tag::Moves) > 1
-                || !Noun::all().iter().any(|noun| noun.fits(merged.body, merged.predicates()))
-            {
+            if merged.count(Tag::Moves) > 1 || !Noun::exists(merged.body, merged.predicates()) {
                 return None;
             }
             self.partition.iter_mut().filter(|class| **class == from).for_each(|class| *class = into);

@@ -3,14 +3,14 @@
 use super::predicates::Predicates;
 use crate::invention::mechanic::Body;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 const NOUNS: &str = include_str!("../../../mechanics/nouns.txt");
 const PLACES: &str = include_str!("../../../mechanics/places.toml");
 
 /// The kind of object that a noun denotes. Each kind is a heading in the noun table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Form {
     Mover,
     Item,
@@ -31,6 +31,18 @@ impl Form {
             "Flashes" | "Flashes:" => Form::Flash,
             _ => return None,
         })
+    }
+
+    fn fits(self, body: Body, needs: Predicates) -> bool {
+        match body {
+            Body::Mover => self == Form::Mover,
+            Body::Item => self == Form::Item,
+            Body::Crate => self == Form::Crate,
+            Body::Solid => matches!(self, Form::Solid | Form::Ground),
+            Body::Ground if needs.includes(Predicates::portable()) => self == Form::Item,
+            Body::Ground => self == Form::Ground,
+            Body::Flash => self == Form::Flash,
+        }
     }
 }
 
@@ -77,17 +89,17 @@ impl Noun {
     /// Returns `true` if the noun fits a type with the given body and required predicates. Water and holes can be
     /// solid. An object that can be carried only one at a time has the body of ground, but the noun of an item.
     pub(crate) fn fits(&self, body: Body, needs: Predicates) -> bool {
-        let is_carried = needs.includes(Predicates::portable());
-        let is_of_form = match body {
-            Body::Mover => self.form == Form::Mover,
-            Body::Item => self.form == Form::Item,
-            Body::Crate => self.form == Form::Crate,
-            Body::Solid => matches!(self.form, Form::Solid | Form::Ground),
-            Body::Ground if is_carried => self.form == Form::Item,
-            Body::Ground => self.form == Form::Ground,
-            Body::Flash => self.form == Form::Flash,
-        };
-        is_of_form && self.predicates.includes(needs)
+        self.predicates.includes(needs) && self.form.fits(body, needs)
+    }
+
+    /// Returns `true` if any noun [fits](Noun::fits).
+    pub(crate) fn exists(body: Body, needs: Predicates) -> bool {
+        static KINDS: OnceLock<Vec<(Form, Predicates)>> = OnceLock::new();
+        let kinds = KINDS.get_or_init(|| {
+            let kinds = Noun::all().iter().map(|noun| (noun.form, noun.predicates));
+            kinds.collect::<BTreeSet<_>>().into_iter().collect()
+        });
+        kinds.iter().any(|(form, predicates)| predicates.includes(needs) && form.fits(body, needs))
     }
 
     /// Returns `true` if the noun's object occurs in the given setting.

@@ -1,6 +1,7 @@
 //! The properties that rules can require of nouns.
 
 use std::str::FromStr;
+use std::sync::LazyLock;
 
 /// The words for an object's nature or actions, independent of its use in a game.
 const WORDS: &[&str] = &[
@@ -19,8 +20,9 @@ pub(crate) struct Predicates(u64);
 impl Predicates {
     /// Returns the predicate that the nouns of all items share.
     pub(crate) fn portable() -> Predicates {
-        let at = WORDS.iter().position(|word| *word == "portable").expect("the word is listed");
-        Predicates(1 << at)
+        static PORTABLE: LazyLock<Predicates> =
+            LazyLock::new(|| "portable".parse().expect("the word is listed"));
+        *PORTABLE
     }
 
     /// Returns the union of two sets.
