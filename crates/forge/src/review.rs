@@ -166,7 +166,7 @@ fn criterion(text: &mut String, judgement: &Judgement, source: &str, boards: &mu
         (Verdict::Pass { witness: Some(_) }, None) => "; a shorter win may exist",
         _ => "",
     };
-    let line = format!("  {mark:<5}{criterion:<13}{words}{optimal}{comma}{measured}");
+    let line = format!("  {mark:<5}{criterion:<12} {words}{optimal}{comma}{measured}");
     let _ = writeln!(text, "{}", line.trim_end());
     // A criterion's name alone says little, so its question is added if the answer matters.
     let is_asked = mark == "FAIL" || mark == "?" && !words.starts_with("needs a win");
@@ -261,4 +261,23 @@ fn ladder_results(text: &mut String, ladder: &Ladder) {
 fn rate(rate: &Rate) -> String {
     let Rate { wins, plays, interval: [low, high], .. } = rate;
     format!("{wins} of {plays} episodes won (95%: {:.0} to {:.0}%)", 100.0 * low, 100.0 * high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The name fills its column.
+    #[test]
+    fn a_long_name_is_separated_from_its_answer() {
+        let finding = Verdict::fail("won by luck").into();
+        let (mut text, mut boards) = (String::new(), 0);
+        criterion(
+            &mut text,
+            &Judgement { criterion: Criterion::SkillOverall, finding },
+            "game.txt",
+            &mut boards,
+        );
+        assert!(text.starts_with("  FAIL skill-overall won by luck"), "{text}");
+    }
 }

@@ -161,7 +161,7 @@ pub(crate) trait Section: Sync {
     }
 
     /// Returns the path of the file that [`Section::summary`] creates for a release with the given manifest; `None` if
-    /// it creates no file.
+    /// it creates no file. In a sealed release, the file must be in `held/`, because every other file is public.
     fn summary_path(&self, _manifest: &Manifest) -> Option<String> {
         None
     }
