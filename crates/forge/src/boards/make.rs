@@ -95,8 +95,8 @@ pub(crate) fn search_boards(
         best.note(&level, judged);
         search.tell(vec![(level, evaluation)]);
     }
-    best.tidy(&variation, &judge);
     if budget.scrutiny > 1 {
+        best.tidy(&variation, &judge);
         best.scrutinize(&strict);
     }
     let feasibility = search.best().map_or(0.0, |(_, evaluation)| evaluation.feasibility);
@@ -118,11 +118,10 @@ struct Best {
 
 impl Best {
     /// Returns `true` if a board was won, and the search has not improved on it for a long time after the initial
-    /// compositions.
+    /// compositions. Without patience, the first won board is enough.
     fn is_stale(&self, budget: &BoardBudget) -> bool {
-        !self.boards.is_empty()
-            && self.stale >= budget.patience
-            && self.evaluations >= budget.compositions + budget.patience
+        let has_all = self.evaluations >= budget.compositions + budget.patience;
+        !self.boards.is_empty() && self.stale >= budget.patience && (has_all || budget.patience == 0)
     }
 
     /// Returns `true` if many boards were searched but no win met the order.

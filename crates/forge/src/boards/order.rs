@@ -54,7 +54,8 @@ base::with_defaults! {
         pub compositions: usize = 24,
         /// The total number of boards that reach the win search, including compositions.
         pub evaluations: usize = 60,
-        /// The number of boards without improvement after which the search ends, once a board is winnable.
+        /// The number of boards without improvement after which the search ends, once a board is winnable and all
+        /// compositions were judged. If 0, the search ends at the first winnable board.
         pub patience: usize = 24,
         /// The number of boards without a win after which the search ends.
         pub hopeless: usize = 32,
@@ -63,7 +64,7 @@ base::with_defaults! {
         /// The maximum number of forward-model calls in a search for a win without an interaction or after a deviation.
         pub small_calls: u64 = 5_000,
         /// The factor by which `calls` and `small_calls` are multiplied when the best board is finally judged. A factor
-        /// of 1 omits the final judging.
+        /// of 1 omits the final judging, and the tidying before it.
         pub scrutiny: u64 = 8,
         /// The number of deviations from the win to try.
         pub deviations: usize = 10,

@@ -35,6 +35,9 @@ const LOOK_SEARCH: u64 = 20_000;
 const LOOK_CALLS: u64 = 1_500_000;
 /// The number of forward-model calls in the search for a board on which every mechanic matters.
 const JOINT_CALLS: u64 = 2_000_000;
+/// The number of boards without a win in that search after which it ends. Rules that pass have such a board among the
+/// first twelve in six of seven cases.
+const JOINT_HOPELESS: usize = 16;
 /// The reason for rejecting a game without a board on which every mechanic matters.
 pub(super) const USELESS: &str = "a mechanic does not matter";
 /// The minimum fraction of necessary interactions on a quick evaluation's best board.
@@ -79,7 +82,12 @@ impl BoardSource for InventedBoards {
     }
 
     fn look(&self, game: &Game, seed: Seed) -> Result<(), &'static str> {
-        if let Some(obstacle) = self.look_quickly(game, seed).obstacle() {
+        // The first won board of most games has no obstacle, so the best board is rarely needed.
+        let mut look = self.look_at(game, seed, 0);
+        if look.board.is_some() && look.obstacle().is_some() {
+            look = self.look_quickly(game, seed);
+        }
+        if let Some(obstacle) = look.obstacle() {
             return Err(obstacle);
         }
         if self.can_all_matter(game, seed.child("joint use", 0)) { Ok(()) } else { Err(USELESS) }
@@ -172,17 +180,29 @@ impl InventedBoards {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, JOINT));
         let order = BoardOrder { mechanics: self.mechanics.clone(), ..order };
-        let budget = BoardBudget { total: JOINT_CALLS, patience: 1, scrutiny: 1, ..BoardBudget::default() };
+        let budget = BoardBudget {
+            total: JOINT_CALLS,
+            patience: 0,
+            hopeless: JOINT_HOPELESS,
+            scrutiny: 1,
+            ..BoardBudget::default()
+        };
         make_board(&analysis, &order, seed, &budget).is_some()
     }
 
     /// Composes a few boards for a game and measures the best one.
     pub(crate) fn look_quickly(&self, game: &Game, seed: Seed) -> QuickLook {
+        self.look_at(game, seed, BoardBudget::default().patience)
+    }
+
+    /// Composes a few boards for a game and measures the best one, or the first won one if `patience` is 0.
+    fn look_at(&self, game: &Game, seed: Seed, patience: usize) -> QuickLook {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, LOOK_DEMAND));
         let budget = BoardBudget {
             compositions: LOOKS,
             evaluations: LOOKS,
+            patience,
             hopeless: HOPELESS,
             calls: LOOK_SEARCH,
             total: LOOK_CALLS,
