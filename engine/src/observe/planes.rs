@@ -2,7 +2,7 @@
 
 use crate::game::Game;
 use crate::numbers::geometry::Rect;
-use crate::rules::SpriteType;
+use crate::rules::{SpriteType, TypeInfo};
 use crate::state::State;
 use crate::world::{Slot, Sprite, World, flag};
 
@@ -14,9 +14,15 @@ const MANY_CHANGES: usize = 24;
 
 /// The [`Drawn`] entry for a slot that does not appear on any plane.
 const NOWHERE: u32 = u32::MAX;
-/// The cell value for a sprite that does not cover exactly one cell, is partly off the board, or is in
-/// flight. Such a sprite is always treated as changed.
-const SPREAD: u32 = 0xFFFF;
+/// The positions of the parts of a [`Drawn`] entry: the row, the flags, and the plane. The lowest bits contain
+/// the column. As in [`Sprite`], the first column and the first row are 1.
+const ROW: u32 = 10;
+const RIGHT: u32 = 20;
+const BELOW: u32 = 21;
+const PLANE: u32 = 22;
+/// The bits below the plane of a sprite that is larger than a cell or not completely on the board. If such a
+/// sprite is listed as changed, its plane is redrawn.
+const SPREAD: u32 = (1 << PLANE) - 1;
 
 /// The planes (arrays of cells) for a game's boards of a given size: one plane per visible sprite type, in the order of
 /// the types given to [`Planes::new`].
@@ -30,9 +36,9 @@ pub struct Planes {
     types: Vec<SpriteType>,
     /// For each type, the index of its plane (its array of cells), or [`Planes::NO_PLANE`].
     plane_of: Vec<u16>,
-    /// A bit set of planes. A plane's bit is set if sprites of its type can move without being recorded in
-    /// the list of changes.
-    unnoted: u64,
+    /// For each plane, the type's bit in the cell masks. The bit is 0 if sprites of the type are not in the
+    /// masks, or if the game has sprites so small that they may be empty.
+    masks: Vec<u64>,
 }
 
 /// The sprites of a board as last drawn, by slot.
@@ -52,14 +58,14 @@ impl Planes {
     ) -> Planes {
         let types: Vec<SpriteType> = types.into_iter().filter(|&stype| !game.is_hidden(stype)).collect();
         let mut plane_of = vec![Planes::NO_PLANE; game.sprite_types().count()];
-        let mut unnoted = 0;
         for (plane, &stype) in types.iter().enumerate() {
             plane_of[stype.index()] = plane as u16;
-            if game.0.plan.shortcuts[stype.index()].flies {
-                unnoted |= bit(plane);
-            }
         }
-        Planes { columns, rows, types, plane_of, unnoted }
+        let rules = &game.0.rules;
+        let is_sized = |info: &TypeInfo| info.traits.width_factor >= 0.5 && info.traits.height_factor >= 0.5;
+        let own = if rules.types.iter().all(is_sized) { !0 } else { 0 };
+        let masks = types.iter().map(|&stype| game.0.models.sole_bit(stype) & own).collect();
+        Planes { columns, rows, types, plane_of, masks }
     }
 
     /// Returns the types in the order of their planes (arrays of cells).
@@ -82,15 +88,15 @@ impl Planes {
         state.settle_hash();
         let world = &state.world;
         drawn.0.clear();
-        drawn.0.extend((0..world.slot_count()).map(|slot| self.place(world.sprite(slot as Slot), world)));
+        drawn.0.extend((0..world.slot_count()).map(|slot| self.place(world.own(slot as Slot))));
         for (&stype, plane) in self.types.iter().zip(out.chunks_exact_mut(self.columns * self.rows)) {
             self.draw_type(world, stype, plane);
         }
     }
 
     /// Draws the changes since the last call with this state. Between the two calls, `drawn` and `out` must
-    /// not change, and nothing else may settle the state's hash. Cost: O(changed sprites), plus O(cells +
-    /// sprites) for each type with changes on the board.
+    /// not change, and nothing else may settle the state's hash. Cost: O(changed sprites + sprites in flight),
+    /// plus O(cells + sprites) for each type that has no rules or changed sprites larger than a cell.
     ///
     /// # Panics
     /// Panics if `out` is not [`Planes::size`] bytes long.
@@ -100,59 +106,78 @@ impl Planes {
             return self.draw(state, drawn, out);
         }
         let world = &state.world;
-        let (mut changed, cells) = (self.unnoted, self.columns * self.rows);
+        let mut changed = 0;
         drawn.0.resize(world.slot_count(), NOWHERE);
-        for &slot in world.dirty() {
-            let (now, before) = (self.place(world.sprite(slot), world), &mut drawn.0[usize::from(slot)]);
-            if now == *before && now & SPREAD != SPREAD {
+        // Moves by sprites in flight are not recorded as changes.
+        for slot in world.dirty().iter().copied().chain(state.schedule.flying()) {
+            let (to, before) = (self.place(world.own(slot)), &mut drawn.0[usize::from(slot)]);
+            if to == *before && to & SPREAD != SPREAD {
                 continue;
             }
-            let (from, to) = (std::mem::replace(before, now), now);
-            // If a sprite is the only one of its type, as most avatars are, no other sprite of the type
-            // covers the cell that it leaves.
-            if from >> 16 == to >> 16 && from & SPREAD != SPREAD && to & SPREAD != SPREAD {
-                let plane = (to >> 16) as usize;
-                if world.group(self.types[plane]).count == 1 && world.scenery_of(self.types[plane]).is_empty()
-                {
-                    let board = &mut out[plane * cells..][..cells];
-                    (board[(from & SPREAD) as usize], board[(to & SPREAD) as usize]) = (0, 1);
-                    continue;
-                }
-            }
-            for place in [from, to].into_iter().filter(|&place| place != NOWHERE) {
-                changed |= bit((place >> 16) as usize);
-            }
+            let from = std::mem::replace(before, to);
+            changed |= self.change(world, from, false, out) | self.change(world, to, true, out);
         }
         let is_long = world.dirty().len() > MANY_CHANGES;
         while changed != 0 {
             let plane = changed.trailing_zeros() as usize;
             changed &= changed - 1;
-            self.draw_type(world, self.types[plane], &mut out[plane * cells..][..cells]);
+            self.draw_type(world, self.types[plane], self.board(plane, out));
         }
         if is_long {
             state.settle_hash();
         }
     }
 
-    /// Returns a sprite's plane (upper 16 bits) and cell (lower 16 bits).
+    /// Draws the cells of an entry in [`Drawn`], which a sprite has entered or left. Returns the bit of the
+    /// entry's plane if the plane must be redrawn instead, and otherwise 0.
     #[inline(always)]
-    fn place(&self, sprite: &Sprite, world: &World) -> u32 {
+    fn change(&self, world: &World, place: u32, is_new: bool, out: &mut [u8]) -> u64 {
+        if place == NOWHERE {
+            return 0;
+        }
+        let plane = (place >> PLANE) as usize;
+        let mask = self.masks[plane];
+        let is_exact = mask != 0 && world.group(self.types[plane]).big == 0 && world.block() > 1;
+        if place & SPREAD == SPREAD || !is_exact {
+            return bit(plane);
+        }
+        let board = self.board(plane, out);
+        let (column, row) = (place & 0x3FF, place >> ROW & 0x3FF);
+        // Another sprite of the type may cover a cell that the sprite has left.
+        let mut set = |column: u32, row: u32| {
+            board[self.cell(column, row)] = u8::from(is_new || world.is_covered(column, row, mask));
+        };
+        set(column, row);
+        if place & (1 << RIGHT | 1 << BELOW) != 0 {
+            let (right, below) = (place >> RIGHT & 1, place >> BELOW & 1);
+            set(column + right, row);
+            set(column, row + below);
+            set(column + right, row + below);
+        }
+        0
+    }
+
+    fn board<'a>(&self, plane: usize, out: &'a mut [u8]) -> &'a mut [u8] {
+        &mut out[plane * self.columns * self.rows..][..self.columns * self.rows]
+    }
+
+    /// Returns the row-major index of a cell. The first column and the first row are 1.
+    fn cell(&self, column: u32, row: u32) -> usize {
+        (row - 1) as usize * self.columns + (column - 1) as usize
+    }
+
+    /// Returns a sprite's entry in [`Drawn`].
+    #[inline(always)]
+    fn place(&self, sprite: &Sprite) -> u32 {
         let plane = self.plane_of[sprite.stype.index()];
         if sprite.is(flag::FREE) || plane == Planes::NO_PLANE {
             return NOWHERE;
         }
-        u32::from(plane) << 16 | self.single_cell(sprite, world).map_or(SPREAD, |cell| cell as u32)
-    }
-
-    /// Returns the cell of a sprite that covers exactly one cell and stays in it until it is recorded as changed;
-    /// `None` for any other sprite.
-    #[inline(always)]
-    fn single_cell(&self, sprite: &Sprite, world: &World) -> Option<usize> {
-        let (column, row) = (i32::from(sprite.column) - 1, i32::from(sprite.row) - 1);
-        let is_inside = (0..world.columns()).contains(&column) && (0..world.rows()).contains(&row);
-        let is_plain = sprite.flags & flag::PLACEMENT == 0 && sprite.rect.w > 0 && sprite.rect.h > 0;
-        let cell = (row * self.columns as i32 + column) as usize;
-        (is_inside && is_plain && !sprite.flies() && cell < SPREAD as usize).then_some(cell)
+        if sprite.is(flag::BIG | flag::OFF) {
+            return u32::from(plane) << PLANE | SPREAD;
+        }
+        let further = u32::from(sprite.is(flag::RIGHT)) << RIGHT | u32::from(sprite.is(flag::BELOW)) << BELOW;
+        u32::from(plane) << PLANE | further | (sprite.row as u32) << ROW | sprite.column as u32
     }
 
     /// Calls `mark` with the row-major index of each cell that a sprite on the plane overlaps, once per
@@ -173,9 +198,9 @@ impl Planes {
         }
         for slot in world.slots(stype) {
             let sprite = world.sprite(slot);
-            match self.single_cell(sprite, world) {
-                Some(cell) => mark(cell),
-                None => self.cover(world, world.rect(sprite), &mut mark),
+            match sprite.flags & flag::PLACEMENT {
+                0 => mark(self.cell(sprite.column as u32, sprite.row as u32)),
+                _ => self.cover(world, world.rect(sprite), &mut mark),
             }
         }
     }

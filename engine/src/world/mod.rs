@@ -20,6 +20,7 @@ use crate::flat::{bytes_of_fields, flat};
 use crate::numbers::chance::Chance;
 use crate::rules::{Action, EffectInfo, Outcome, Rules, SpriteType};
 pub(crate) use board::overlap::{Hit, Hits, Partners, Side};
+use board::placement::reciprocal;
 use fixtures::Fixtures;
 use hash::contribution::{Contribution, HashClass, Sum};
 pub(crate) use hash::{Mixer, bits, two};
@@ -82,6 +83,8 @@ flat! {
             /// The number of messages logged so far. More than 25 messages end the game.
             messages: u32,
             block: i32,
+            /// The factor that divides by the cell size (`placement.rs`).
+            reciprocal: u64,
             columns: i32,
             rows: i32,
             free: Slot,
@@ -174,6 +177,7 @@ impl World {
         chance: Chance,
     ) -> World {
         let cells = World::cell_count(columns, rows);
+        let block = rules.square_size.unwrap_or_else(|| 2.max(SCREEN / columns.max(rows)));
         World {
             outcome: Outcome::Ongoing,
             last_action: Action::Nil,
@@ -184,7 +188,8 @@ impl World {
             next_id: 0,
             population: 0,
             messages: rules.messages,
-            block: rules.square_size.unwrap_or_else(|| 2.max(SCREEN / columns.max(rows))),
+            block,
+            reciprocal: reciprocal(block),
             columns,
             rows,
             free: NONE,

@@ -16,14 +16,7 @@ const MAX_COVERED: i32 = 100;
 impl World {
     /// Records a sprite in its cells.
     pub(crate) fn enter_cell(&mut self, models: &Models, slot: Slot, watcher: &mut impl Watcher) {
-        let rect = self.own(slot).rect;
-        let Rect { w, h, .. } = self.screen();
-        let to = if (0..w).contains(&rect.x) && (0..h).contains(&rect.y) {
-            let place = |at: i32| (at as u32 / self.block as u32 + 1) as i16;
-            self.locate(rect, place(rect.x), place(rect.y))
-        } else {
-            self.locate_afar(rect)
-        };
+        let to = self.locate(self.own(slot).rect);
         self.enter_located(models, slot, to, watcher);
     }
 
@@ -103,17 +96,16 @@ impl World {
         self.left_behind += u32::from(flags & flag::BIG != 0);
     }
 
-    /// Changes a sprite's rectangle. The sprite then counts as moved in this tick. It must keep its size, and
-    /// must already be recorded in its cells.
+    /// Changes a sprite's rectangle, and records the sprite in its new cells. The sprite then counts as moved
+    /// in this tick.
     #[inline(always)]
-    pub(crate) fn relocate_to(
-        &mut self,
-        models: &Models,
-        slot: Slot,
-        rect: Rect,
-        (from, to): (Located, Located),
-        watcher: &mut impl Watcher,
-    ) {
+    pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
+        let (from, old) = (self.located(slot), self.own(slot).rect);
+        if (old.w, old.h) != (rect.w, rect.h) {
+            self.resize(slot, rect);
+            return self.enter_anew(models, slot, rect, watcher);
+        }
+        let to = self.locate_moved(from, old, rect);
         let sprite = &mut self.sprites[usize::from(slot)];
         let before = sprite.flags;
         sprite.flags |= flag::DIRTY | flag::MOVED;
@@ -127,32 +119,17 @@ impl World {
         self.enter_other(models, slot, from, to, watcher);
     }
 
-    /// Relocates a sprite like [`World::relocate_to`], but allows its size to change.
-    #[inline(always)]
-    pub(crate) fn relocate(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
-        let before = self.own(slot).rect;
-        if (before.w, before.h) == (rect.w, rect.h) {
-            let places = self.locate_move(slot, rect);
-            self.relocate_to(models, slot, rect, places, watcher);
-        } else {
-            self.resize(models, slot, rect, watcher);
-        }
-    }
-
     #[inline(never)]
-    fn resize(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
-        let (from, to) = self.locate_move(slot, rect);
+    fn resize(&mut self, slot: Slot, rect: Rect) {
         let last = self.last(slot);
         self.edit(slot).rect = rect;
         self.set_last(slot, last);
-        self.enter_other(models, slot, from, to, watcher);
     }
 
     /// Records a moved sprite in its new cells.
     #[inline(always)]
     pub(crate) fn enter_anew(&mut self, models: &Models, slot: Slot, rect: Rect, watcher: &mut impl Watcher) {
-        let from = self.located(slot);
-        let to = self.locate(rect, from.column, from.row);
+        let (from, to) = (self.located(slot), self.locate(rect));
         self.enter_other(models, slot, from, to, watcher);
     }
 

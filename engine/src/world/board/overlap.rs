@@ -59,6 +59,11 @@ impl World {
         self.big_bits & bits != 0
     }
 
+    /// Returns `true` if a sprite of a type with any of these bits, no larger than a cell, covers a cell.
+    pub(crate) fn is_covered(&self, column: u32, row: u32, bits: u64) -> bool {
+        self.masks[self.cell(column as i32, row as i32)] & bits != 0
+    }
+
     /// Returns the hit for a sprite on a side.
     pub(crate) fn hit(&self, side: Side<'_>, slot: Slot) -> Hit {
         let sprite = self.sprite(slot);
