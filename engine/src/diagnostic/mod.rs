@@ -1,4 +1,4 @@
-//! Problems in VGDL files, as plain data that the `cli` crate renders.
+//! Problems in VGDL files, as plain data. The `editor` crate renders them in words (`in_words/`).
 
 pub(crate) mod causes;
 

@@ -1,4 +1,4 @@
-//! The nouns of invented games, with their predicates and the settings in which they occur.
+//! The table of nouns for invented games, with their predicates and settings. `fiction/mod.rs` chooses from it.
 
 use super::predicates::Predicates;
 use crate::invention::mechanic::Body;
