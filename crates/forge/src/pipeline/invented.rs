@@ -35,9 +35,6 @@ const LOOK_SEARCH: u64 = 20_000;
 const LOOK_CALLS: u64 = 1_500_000;
 /// The number of forward-model calls in the search for a board on which every mechanic matters.
 const JOINT_CALLS: u64 = 2_000_000;
-/// The number of boards without a win in that search after which it ends. Rules that pass have such a board among the
-/// first twelve in six of seven cases.
-const JOINT_HOPELESS: usize = 16;
 /// The reason for rejecting a game without a board on which every mechanic matters.
 pub(super) const USELESS: &str = "a mechanic does not matter";
 /// The minimum fraction of necessary interactions on a quick evaluation's best board.
@@ -180,13 +177,7 @@ impl InventedBoards {
         let analysis = Analysis::of(game);
         let order = BoardOrder::of(self.brief(&analysis, JOINT));
         let order = BoardOrder { mechanics: self.mechanics.clone(), ..order };
-        let budget = BoardBudget {
-            total: JOINT_CALLS,
-            patience: 0,
-            hopeless: JOINT_HOPELESS,
-            scrutiny: 1,
-            ..BoardBudget::default()
-        };
+        let budget = BoardBudget { total: JOINT_CALLS, patience: 0, scrutiny: 1, ..BoardBudget::default() };
         make_board(&analysis, &order, seed, &budget).is_some()
     }
 
