@@ -3,6 +3,7 @@
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, SCHEMA, Status};
+use crate::metrics::EndCause;
 use crate::player::{Choice, Contestant, Halt, Validity};
 use crate::predictions::{Grade, Predicted, grade};
 use crate::prompt::kinds_at_start;
@@ -76,7 +77,10 @@ impl Task<'_> {
     /// # Errors
     /// Returns a clause that states the first difference.
     pub fn compare_start(&self, start: &Event) -> Result<(), String> {
-        let Event::Start { game, level, run, seed, max_steps, commit, track, series, .. } = start else {
+        let Event::Start {
+            game, level, run, seed, max_steps, commit, track, series, ..
+        } = start
+        else {
             return Ok(());
         };
         let place = |series: Option<SeriesPlace>| {
@@ -178,7 +182,7 @@ pub(crate) fn play_watched(
     if !has_ended && let Err(halt) = play.predict(journal)? {
         return halted(halt, journal);
     }
-    play.finish();
+    play.finish(journal);
     let outcome = play.state.outcome();
     let status = if play.state.is_over() { Status::Over } else { Status::StepLimit };
     if !has_ended {
@@ -245,7 +249,8 @@ impl<'a> Playing<'a> {
 
     /// Returns the event for the first line of the log.
     fn start_event(&self) -> Event {
-        let Task { subject, level, run, max_steps, commit, track, series, .. } = *self.task;
+        let Task { subject, level, run, max_steps, commit, track, series, .. } =
+            *self.task;
         let (game, game_digest) = (subject.id.clone(), subject.game.digest());
         Event::Start {
             schema: SCHEMA,
@@ -366,9 +371,15 @@ impl<'a> Playing<'a> {
     }
 
     /// Shows the final state to the agent.
-    fn finish(&mut self) {
+    fn finish(&mut self, journal: &Journal) {
         if let Contestant::Agent(agent) = &mut *self.contestant {
-            agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.recent, &[], self.previous));
+            let action = |event: &Event| match event {
+                Event::Step { action, .. } => Some(*action),
+                _ => None,
+            };
+            let actions: Vec<Action> = journal.events().iter().filter_map(action).collect();
+            let last = Turn::of(self.task, self.steps, &self.seen, &self.recent, &[], self.previous);
+            agent.end(&Turn { cause: Some(EndCause::replayed(self.task, &actions)), ..last });
         }
     }
 

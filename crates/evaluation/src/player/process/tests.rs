@@ -70,6 +70,7 @@ impl Board {
             }),
             actions: &actions,
             series: None,
+            cause: None,
         };
         use_it(&mut self.agent, &mut self.journal, &turn)
     }
