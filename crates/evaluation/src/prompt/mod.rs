@@ -27,6 +27,7 @@ use crate::legend::{Legend, LegendOptions};
 use crate::mask::{Mask, without_pictures};
 use crate::metrics::EndCause;
 use crate::subject::{Subject, SubjectLevel};
+use crate::thought::AnswerLimit;
 use crate::tokens;
 use crate::turn::{Turn, is_of_use};
 use base::{Digest, Seed};
@@ -45,13 +46,14 @@ use std::collections::BTreeMap;
 /// that results with different prompts are easy to tell apart.
 pub const VERSION: u32 = 12;
 
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 7] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
     ("standard_turn.j2", include_str!("templates/standard_turn.j2")),
     ("reference_static.j2", include_str!("templates/reference_static.j2")),
     ("reference_turn.j2", include_str!("templates/reference_turn.j2")),
     ("ending.j2", include_str!("templates/ending.j2")),
     ("complaint.j2", include_str!("templates/complaint.j2")),
+    ("limit.j2", include_str!("templates/limit.j2")),
 ];
 
 /// The templates for [`PromptStyle::Discover`]. They are not in the shared list, because the digests of the
@@ -81,6 +83,8 @@ pub struct Prompter {
     holding: bool,
     /// The highest possible score on each level, by level number. Levels without a proved limit are missing.
     most_points: BTreeMap<usize, i64>,
+    /// The limit on each answer's length, if any.
+    answer_limit: Option<AnswerLimit>,
     static_part: String,
     static_tokens: Vec<PartTokens>,
 }
@@ -192,6 +196,7 @@ impl Prompter {
             actions,
             holding: !analysis.resources().is_empty(),
             most_points: most_points(subject),
+            answer_limit: None,
             static_part: String::new(),
             static_tokens: Vec::new(),
             commit,
@@ -200,6 +205,24 @@ impl Prompter {
         prompter.static_part = prompter.write_static(analysis, limit);
         prompter.static_tokens = by_section(&prompter.static_part);
         Ok(prompter)
+    }
+
+    /// States a limit on each answer's length at the end of the static part. The player enforces the limit.
+    #[must_use]
+    pub fn with_answer_limit(mut self, limit: Option<AnswerLimit>) -> Prompter {
+        let Some(limit) = limit else { return self };
+        let (is_in_words, most) = (matches!(limit, AnswerLimit::Words(_)), limit.most());
+        let limited = data(serde_json::json!({ "is_in_words": is_in_words, "most": most }));
+        let sentences = self.render("limit.j2", limited);
+        self.static_part = format!("{}\n{}", self.static_part, sentences.trim_end());
+        self.static_tokens = by_section(&self.static_part);
+        self.answer_limit = Some(limit);
+        self
+    }
+
+    /// Returns the limit on each answer's length, if any.
+    pub fn answer_limit(&self) -> Option<AnswerLimit> {
+        self.answer_limit
     }
 
     /// Returns the prompt settings.
@@ -222,7 +245,8 @@ impl Prompter {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the number of actions per decision. If
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings, the number of actions per decision
+    /// and the limit on answers. If
     /// two runs of the same game have the same digest, [`engine::SEMANTICS`] and step limit, they have the same
     /// prompts.
     pub fn digest(&self) -> Digest {
@@ -236,6 +260,9 @@ impl Prompter {
         }
         if let Some(commit) = self.commit.aid() {
             hasher.update(commit.as_bytes());
+        }
+        if let Some(limit) = self.answer_limit {
+            hasher.update(format!("{limit:?}").as_bytes());
         }
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
