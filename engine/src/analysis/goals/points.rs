@@ -2,9 +2,9 @@
 
 use crate::analysis::Analysis;
 use crate::analysis::interactions::encounter::Side;
+use crate::rules::SpriteType;
 use crate::rules::class::SpriteClass;
-use crate::rules::effects::{Effect, EffectSummary};
-use crate::rules::{EffectInfo, SpriteType};
+use crate::rules::effects::{EffectFamily, EffectSummary, Gives, OrientationRead, Precondition, Summary};
 use crate::state::State;
 
 impl Analysis {
@@ -38,16 +38,15 @@ impl Analysis {
             if gain <= 0 || !occurs(first) || !second.is_none_or(occurs) {
                 continue;
             }
-            let (used, other) = match (used_up(info), second) {
+            let (used, other) = match (used_up(&info.summary), second) {
                 (Some(Side::First), Some(second)) => (first, Some(second)),
                 (Some(Side::Second), Some(second)) => (second, Some(first)),
-                (Some(Side::First), None) if matches!(info.effect, Effect::KillSprite) => (first, None),
+                (Some(Side::First), None) if !info.summary.needs_partner => (first, None),
                 _ => return None,
             };
             let meets_avatar =
                 other.is_none_or(|other| tree(other).all(|t| is_avatar(t) || !self.can_exist(t)));
-            let gives =
-                matches!(info.effect, Effect::CollectResource { .. } | Effect::CollectResourceIfHeld { .. });
+            let gives = matches!(info.summary.gives, Some(Gives::First { .. }));
             let is_fit = |stype: SpriteType| {
                 let traits = &rules.types[stype.index()].traits;
                 !is_avatar(stype) && self.is_never_made(stype) && (!gives || traits.is_resource)
@@ -74,18 +73,18 @@ impl Analysis {
 }
 
 /// Returns the side whose sprite disappears whenever the effect changes the score; `None` if there is no such side.
-fn used_up(info: &EffectInfo) -> Option<Side> {
-    match info.effect {
-        Effect::KillSprite
-        | Effect::KillBoth
-        | Effect::KillIfHasLess { .. }
-        | Effect::KillIfHasMore { .. }
-        | Effect::KillIfOtherHasMore { .. }
-        | Effect::KillIfFromAbove
-        | Effect::KillIfFrontal { .. }
-        | Effect::CollectResource { kill_resource: true }
-        | Effect::CollectResourceIfHeld { kill_resource: true, .. } => Some(Side::First),
-        Effect::ChangeResource { kill_resource: true, .. } => Some(Side::Second),
-        _ => None,
+fn used_up(summary: &Summary) -> Option<Side> {
+    let kills = |side| summary.effects.contains(&EffectSummary::Kill(side));
+    // The summary of killIfAlive does not state its condition, and effects with conditions on movement may change the
+    // score without a kill. Only effects without such a condition declare that they read no orientation.
+    let is_unconditional = summary.precondition != Precondition::Movement
+        && summary.reads_orientation == OrientationRead::Neither;
+    if summary.family == EffectFamily::Kill {
+        return (is_unconditional && kills(Side::First)).then_some(Side::First);
+    }
+    match summary.gives {
+        Some(Gives::First { used_up: true }) => Some(Side::First),
+        Some(Gives::Amount { used_up: true, .. }) => Some(Side::Second),
+        Some(Gives::First { used_up: false } | Gives::Amount { used_up: false, .. }) | None => None,
     }
 }
