@@ -1,6 +1,7 @@
 //! A player's view at one decision.
 
 use crate::commitment::Commitment;
+use crate::metrics::EndCause;
 use crate::run::Task;
 use crate::subject::Subject;
 use crate::track::SeriesPlace;
@@ -32,6 +33,8 @@ pub struct Turn<'a> {
     /// The level's position in a series of levels played in one conversation, or `None` for a level played
     /// alone.
     pub series: Option<SeriesView<'a>>,
+    /// The lines that ended the game, or `None` if the game goes on or if the lines are unknown.
+    pub cause: Option<EndCause>,
 }
 
 /// A level's position in a series, with the end of the previous level.
@@ -105,7 +108,19 @@ impl<'a> Turn<'a> {
         let Task { subject, max_steps: limit, commit, .. } = *task;
         let (level, played) = (task.level.number, recent.played.as_slice());
         let series = task.series.map(|place| SeriesView { place, previous });
-        Turn { subject, level, number, limit, commit, observation, before, played, actions, series }
+        Turn {
+            subject,
+            level,
+            number,
+            limit,
+            commit,
+            observation,
+            before,
+            played,
+            actions,
+            series,
+            cause: None,
+        }
     }
 
     /// Returns the number of actions in the decision (at least one).

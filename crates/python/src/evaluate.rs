@@ -154,6 +154,7 @@ fn settings_of(
     runs: u64,
     max_steps: u64,
     commit: &str,
+    max_output_tokens: None,
     track: Option<Track>,
 ) -> PyResult<Settings> {
     let entrant = Entrant { name: "python".to_owned(), mode: None, aids: Vec::new(), details: json!({}) };
@@ -167,6 +168,7 @@ fn settings_of(
         runs,
         max_steps,
         commit: commit.parse().map_err(invalid)?,
+        max_output_tokens: None,
         track: None,
         series: 1,
         adaptive: None,
@@ -235,6 +237,7 @@ impl Series {
         seed: &str,
         max_steps: u64,
         commit: &str,
+        max_output_tokens: None,
         track: Option<&str>,
         prompts: Option<&str>,
         reasks: u32,
@@ -434,6 +437,7 @@ pub(crate) fn replay_log(
     seed: Option<&str>,
     max_steps: Option<u64>,
     commit: &str,
+    max_output_tokens: None,
     track: Option<&str>,
 ) -> PyResult<String> {
     let (subject, log) = (subject(game, id, &levels)?, events(log)?);

@@ -126,3 +126,11 @@ pub fn describe(game: &Game) -> String {
 pub fn interaction(analysis: &Analysis, line: usize) -> Vec<String> {
     rules::meetings_of(analysis, line)
 }
+
+/// Returns the sentence of [`Guide::winning`] or [`Guide::losing`] that describes termination `line`, an index into
+/// [`Description::terminations`](crate::Description). Returns `None` if the termination never ends a game like that.
+pub fn termination(analysis: &Analysis, line: usize, is_won: bool) -> Option<String> {
+    let goal = analysis.goals().iter().find(|goal| goal.line == line)?;
+    let ends = if is_won { goal.win } else { goal.can_lose() };
+    ends.then(|| format!("{}.", rules::goal(analysis, goal, is_won)))
+}

@@ -27,9 +27,9 @@ pub(crate) struct ClientArgs {
     /// Nucleus sampling threshold; not sent by default
     #[arg(long, value_name = "P", requires = "model", value_parser = number(0.0..=1.0))]
     top_p: Option<f64>,
-    /// Maximum number of tokens per answer, including reasoning
-    #[arg(long, value_name = "N", requires = "model")]
-    max_output_tokens: Option<u32>,
+    /// Maximum number of tokens per answer, including reasoning (see `arcade docs evaluate`)
+    #[arg(long, value_name = "N")]
+    max_output_tokens: Option<NonZeroU32>,
     /// The provider's sampling seed
     #[arg(long, value_name = "N", requires = "model")]
     sampling_seed: Option<u64>,
@@ -74,14 +74,20 @@ const TRIES: NonZeroU32 = NonZeroU32::new(8).expect("the default is positive");
 const TIMEOUT: u64 = 600;
 
 impl ClientArgs {
-    /// Returns the first flag set by the user that affects only language models, if any.
-    pub(crate) fn unused_without_model(&self) -> Option<&'static str> {
+    /// Returns the maximum number of output tokens per answer, if the user set it.
+    pub(crate) fn max_output_tokens(&self) -> Option<u32> {
+        self.max_output_tokens.map(NonZeroU32::get)
+    }
+
+    /// Returns the first flag set by the user that affects only language models, if any. `is_limited` is `true` for
+    /// a player that accepts a limit on its output tokens although it is not a model.
+    pub(crate) fn unused_without_model(&self, is_limited: bool) -> Option<&'static str> {
         let given = [
             ("--base-url", self.base_url.is_some()),
             ("--key-variable", self.key_variable.is_some()),
             ("--temperature", self.temperature.is_some()),
             ("--top-p", self.top_p.is_some()),
-            ("--max-output-tokens", self.max_output_tokens.is_some()),
+            ("--max-output-tokens", self.max_output_tokens.is_some() && !is_limited),
             ("--sampling-seed", self.sampling_seed.is_some()),
             ("--reasoning-effort", self.reasoning_effort.is_some()),
             ("--max-cost", self.max_cost.is_some()),
@@ -125,7 +131,7 @@ impl ClientArgs {
             decoding: Decoding {
                 temperature: self.temperature,
                 top_p: self.top_p,
-                max_output_tokens: self.max_output_tokens,
+                max_output_tokens: self.max_output_tokens(),
                 seed: self.sampling_seed,
                 reasoning_effort: self.reasoning_effort.clone(),
             },

@@ -100,6 +100,7 @@ fn talk(folder: &Path, id: &str, mode: &str, halt: Option<u64>) {
         runs: 2,
         max_steps: 12,
         commit: evaluation::Commitment::ONE,
+        max_output_tokens: None,
         track: None,
         series: 1,
         adaptive: None,

@@ -198,7 +198,7 @@ fn readers_take_part_as_anchors() {
 fn timelines_are_a_page_and_its_numbers() {
     let folder = SCALES.path();
     let plays = |scale: &str, name: &str| format!("{scale}/plays/{name}");
-    let names = ["olets-1", "random-1", "reflex-4"];
+    let names = ["olets-1", "random-1", "reflex-5"];
     let results: Vec<String> =
         ["first", "second"].iter().flat_map(|scale| names.map(|name| plays(scale, name))).collect();
     let make = |out: &str, scale: &str, status| {
@@ -212,7 +212,7 @@ fn timelines_are_a_page_and_its_numbers() {
         "november to december: 2 months on one scale",
         "olets-1",
         "Not placed",
-        "reflex-4 is not placed in december",
+        "reflex-5 is not placed in december",
         "</html>",
     ] {
         assert!(page.contains(part), "{part}");

@@ -108,6 +108,8 @@ pub enum Finish {
     Length,
     /// The model or its provider declined to answer, for example because of a content filter.
     Refusal,
+    /// The answer has more tokens than the evaluation allows, although the provider did not cut it off.
+    Excess,
     /// The provider stated a different reason, or no reason.
     #[default]
     Other,

@@ -64,12 +64,18 @@ impl<'a> Answers<'a> {
             return if is_model { wrong("the answer is missing") } else { Ok(()) };
         };
         if !is_model {
-            // An external program's log does not contain the answer that was read successfully. If the log
-            // contains two unreadable answers, the second was the last answer.
+            // An external program's log contains a usable answer only if the answer reports the program's thought. If
+            // the log contains two unreadable answers, the second was the last answer.
             let has_failed = replies.len() > 1;
-            return match (is_valid, has_failed) {
-                (true, true) => wrong("no answer was usable"),
-                (false, false) => wrong("only one answer was unusable"),
+            return match (last.class, validity) {
+                (ReplyClass::Strict, Validity::Valid) | (ReplyClass::Truncated, Validity::Truncated) => {
+                    Ok(())
+                }
+                (ReplyClass::Strict | ReplyClass::Truncated, _) => {
+                    wrong("the last answer contradicts the record")
+                }
+                _ if is_valid && has_failed => wrong("no answer was usable"),
+                _ if !is_valid && !has_failed => wrong("only one answer was unusable"),
                 _ => Ok(()),
             };
         }

@@ -1,9 +1,10 @@
 //! The ending of an episode without a win: its cause, and its distance from a win.
 
+use crate::run::Task;
 use crate::subject::Subject;
-use engine::analysis::{Condition, EffectSummary};
+use engine::analysis::{Condition, EffectSummary, Goal};
 use engine::syntax::Param;
-use engine::{Limit, Meeting, Outcome, Removal, Span, SpriteType, State, Watch};
+use engine::{Action, Limit, Meeting, Outcome, Removal, Span, SpriteType, State, Watch};
 use itertools::Itertools;
 use serde::Serialize;
 
@@ -163,6 +164,42 @@ impl Ending {
     }
 }
 
+/// The lines of a game description that ended an episode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EndCause {
+    /// The termination that won or lost the game, as an index into the description's terminations.
+    pub termination: Option<usize>,
+    /// For a lost game, the interaction that removed the required sprite in the last tick, as an index into the
+    /// description's interactions.
+    pub interaction: Option<usize>,
+}
+
+impl EndCause {
+    /// Finds the lines that ended an episode by replaying its actions. Cost: one forward-model call per action.
+    pub(crate) fn replayed(task: &Task<'_>, actions: &[Action]) -> EndCause {
+        let (subject, game) = (task.subject, &task.subject.game);
+        let mut state = game.start(&task.level.level, task.chance());
+        let mut tick = LastTick::default();
+        for (at, &action) in actions.iter().enumerate() {
+            match at + 1 == actions.len() {
+                true => game.step_watched(&mut state, action, &mut tick),
+                false => game.step(&mut state, action),
+            };
+        }
+        let termination = game.ended_by(&state);
+        let goals = subject.analysis.goals();
+        let lost =
+            goals.iter().find(|goal| Some(goal.line) == termination && state.outcome() == Outcome::Lost);
+        let removes = |goal: &&Goal| match goal.condition {
+            Condition::Tick(_) | Condition::AtLeast(..) => false,
+            Condition::Exactly(_, limit) => limit == 0,
+            _ => true,
+        };
+        let cause = lost.filter(removes).and_then(|goal| culprit(subject, &tick, goal.condition.types()));
+        EndCause { termination, interaction: cause.map(|(line, ..)| line) }
+    }
+}
+
 /// The interactions in an episode's last tick.
 #[derive(Default)]
 pub(super) struct LastTick {
@@ -227,13 +264,7 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         let present = types.iter().find(|&&stype| last.alive(stype) > 0);
         return Ending { sprite: present.map(|&stype| game.name(stype).to_owned()), ..ending(kind) };
     }
-    // An effect on all sprites of a type can also remove sprites other than the two that met. If several such
-    // interactions are possible causes, the last one counts.
-    let seen = tick.removals.iter().rev().find(|removal| types.contains(&removal.sprite));
-    let seen = seen.map(|removal| (removal.line, removal.sprite, removal.by));
-    let at_large =
-        || tick.meetings.iter().rev().find_map(|meeting| removed_at_large(subject, meeting, types));
-    let cause = seen.or_else(at_large).and_then(|(line, sprite, by)| {
+    let cause = culprit(subject, tick, types).and_then(|(line, sprite, by)| {
         let line = game.description().interactions.get(line)?;
         let is_edge = by.is_none() && line.second.iter().any(|word| word.text == EDGE);
         let by = by.map(|stype| game.name(stype)).or(is_edge.then_some(EDGE));
@@ -246,6 +277,19 @@ fn lost(subject: &Subject, first: &State, last: &State, tick: &LastTick) -> Endi
         }
         None => Ending { sprite: types.first().map(|&stype| name(stype)), ..ending(kind) },
     }
+}
+
+/// Returns the interaction that removed a sprite of one of these types in the last tick: its line, the removed type, and
+/// the type that the interaction acted on. If several interactions are possible causes, the last one counts.
+fn culprit(
+    subject: &Subject,
+    tick: &LastTick,
+    types: &[SpriteType],
+) -> Option<(usize, SpriteType, Option<SpriteType>)> {
+    let seen = tick.removals.iter().rev().find(|removal| types.contains(&removal.sprite));
+    // An effect on all sprites of a type can also remove sprites other than the two that met.
+    seen.map(|removal| (removal.line, removal.sprite, removal.by))
+        .or_else(|| tick.meetings.iter().rev().find_map(|meeting| removed_at_large(subject, meeting, types)))
 }
 
 /// Returns the line of a meeting's interaction if the interaction may have removed sprites anywhere on the

@@ -9,6 +9,7 @@ use crate::metrics::movement::Movement;
 use crate::metrics::replay::{Replayed, replay, replay_course};
 use crate::predictions::Grade;
 use crate::subject::Subject;
+use crate::thought::thought;
 use crate::track::SeriesPlace;
 use base::Digest;
 use engine::Outcome;
@@ -41,6 +42,9 @@ pub struct EpisodeMetrics {
     /// The number of actions that the player commits to at each decision.
     #[serde(skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
+    /// The maximum number of output tokens per answer, including reasoning, if the user has set it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_output_tokens: Option<u32>,
     /// The episode's track (bundle of prompt settings), with its version.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,
@@ -73,6 +77,13 @@ pub struct EpisodeMetrics {
     /// equal digests.
     #[serde(skip)]
     pub course: Option<Digest>,
+    /// The amount of thought in all answers: their output tokens, or their words if no number of tokens was reported.
+    /// `None` if the log contains no answers.
+    #[serde(skip)]
+    pub thought: Option<u64>,
+    /// The price of the tokens in all answers and prompts in US dollars, if it is known.
+    #[serde(skip)]
+    pub cost: Option<f64>,
     /// The duration of each decision, in milliseconds.
     #[serde(skip)]
     pub decision_ms: Vec<f64>,
@@ -115,7 +126,9 @@ impl EpisodeMetrics {
     }
 
     fn measured(subject: &Subject, log: &[Event], replayed: Replayed) -> EpisodeMetrics {
-        let Some(Event::Start { level, run, max_steps, commit, track, series, .. }) = log.first() else {
+        let Some(Event::Start { level, run, max_steps, commit, max_output_tokens, track, series, .. }) =
+            log.first()
+        else {
             unreachable!("the replay began with it")
         };
         let Replayed { meaningful, meaningful_as_code, cells, .. } = &replayed;
@@ -138,6 +151,7 @@ impl EpisodeMetrics {
             steps: replayed.actions.len() as u64,
             max_steps: *max_steps,
             commit: *commit,
+            max_output_tokens: *max_output_tokens,
             track: track.clone(),
             series: *series,
             predictions: log.iter().find_map(|event| match event {
@@ -153,6 +167,8 @@ impl EpisodeMetrics {
             served_by: served_by(log),
             folder: None,
             course: Some(replayed.course),
+            thought: thought_in(log),
+            cost: None,
             decision_ms,
             calls,
         }
@@ -173,6 +189,7 @@ impl EpisodeMetrics {
             steps: 0,
             max_steps: 0,
             commit: Commitment::ONE,
+            max_output_tokens: None,
             track: None,
             series: None,
             predictions: None,
@@ -185,6 +202,8 @@ impl EpisodeMetrics {
             served_by: BTreeSet::new(),
             folder: None,
             course: None,
+            thought: None,
+            cost: None,
             decision_ms: Vec::new(),
             calls: Vec::new(),
         }
@@ -260,6 +279,17 @@ fn served_by(log: &[Event]) -> BTreeSet<String> {
         _ => None,
     });
     replies.collect()
+}
+
+/// Returns the amount of thought in a log's answers; `None` if there are no answers.
+fn thought_in(log: &[Event]) -> Option<u64> {
+    let each = log.iter().filter_map(|event| match event {
+        Event::Reply(reply) => {
+            Some(thought(reply.usage.output_tokens, &reply.text, reply.reasoning.as_deref()))
+        }
+        _ => None,
+    });
+    each.reduce(u64::saturating_add)
 }
 
 /// Returns the fraction of `true` flags; `None` without flags.

@@ -16,7 +16,7 @@ mod replay;
 
 pub use as_code::{AsCode, flags_as_code};
 pub use choices::{Choices, Spending};
-pub use ending::{Ending, EndingKind, GoalDistance};
+pub use ending::{EndCause, Ending, EndingKind, GoalDistance};
 pub use episode::{EpisodeMetrics, EpisodeStatus};
 pub use meaningful::{Effect, WINDOW, meaningful};
 pub use movement::Movement;

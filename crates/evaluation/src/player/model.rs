@@ -16,6 +16,8 @@ use std::sync::Arc;
 
 /// The feedback on a truncated answer.
 const CUT_OFF: &str = "it was cut off before it came to an action";
+/// The feedback on an answer that exceeds the limit on its length.
+const TOO_LONG: &str = "it exceeds the limit on its length";
 /// The feedback on a refusal.
 const DECLINED: &str = "it declines to play";
 
@@ -85,7 +87,7 @@ impl ModelPlayer {
                 }
             };
             let (class, actions, why) = classify(&prompter, turn, &reply.text, reply.finish);
-            let again = actions.is_none() && attempt < self.reasks;
+            let again = actions.is_none() && attempt < self.reasks && !self.is_spent(class);
             let complaint = again.then(|| prompter.complaint(&why));
             attempts.push(Attempt { answer: reply.text, complaint });
             if !again {
@@ -144,13 +146,19 @@ impl ModelPlayer {
             if let Some(predicted) = predicted {
                 return Ok(Said { predicted: Some(predicted), validity: Validity::Valid });
             }
-            if attempt >= self.reasks {
+            if attempt >= self.reasks || self.is_spent(class) {
                 return Ok(Said { predicted: None, validity: validity_of(class) });
             }
             let complaint = Some(prompter.question_complaint(&why, kinds));
             attempts.push(Attempt { answer: reply.text, complaint });
             attempt += 1;
         }
+    }
+
+    /// Returns `true` if an answer has used up the limit on its length. Its question is not repeated, because the
+    /// player would think longer than the limit allows.
+    fn is_spent(&self, class: ReplyClass) -> bool {
+        class == ReplyClass::Truncated && self.prompter.answer_limit().is_some()
     }
 
     /// Requests an answer. The request is logged before it is sent.
@@ -174,7 +182,9 @@ impl ModelPlayer {
             decoding: self.decoding.clone(),
             sample: self.samples.child("step", step).child("attempt", u64::from(attempt)),
         };
-        self.model.chat(&request).map_err(Halt::from)
+        let answer = self.model.chat(&request)?;
+        let is_excess = self.prompter.answer_limit().is_some_and(|limit| limit.is_exceeded(&answer));
+        Ok(if is_excess { ChatReply { finish: Finish::Excess, ..answer } } else { answer })
     }
 
     /// Returns a message's index in the log. Each message is added to the log when it is first used.
@@ -249,6 +259,9 @@ fn classify(
     if finish == Finish::Refusal {
         return (ReplyClass::Refused, None, DECLINED.to_owned());
     }
+    if finish == Finish::Excess {
+        return (ReplyClass::Truncated, None, TOO_LONG.to_owned());
+    }
     match (prompter.read(text, turn), finish) {
         (Reading::Strict(actions), _) => (ReplyClass::Strict, Some(actions), String::new()),
         // An action considered before the answer was cut off is not a decision.
@@ -268,6 +281,9 @@ fn classify_predictions(
 ) -> (ReplyClass, Option<Predicted>, String) {
     if finish == Finish::Refusal {
         return (ReplyClass::Refused, None, DECLINED.to_owned());
+    }
+    if finish == Finish::Excess {
+        return (ReplyClass::Truncated, None, TOO_LONG.to_owned());
     }
     match (prompter.read_predictions(text, kinds), finish) {
         (Ok(predicted), _) => (ReplyClass::Strict, Some(predicted), String::new()),

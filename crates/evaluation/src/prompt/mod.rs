@@ -25,12 +25,14 @@ use crate::encoding;
 use crate::error::EvaluationError;
 use crate::legend::{Legend, LegendOptions};
 use crate::mask::{Mask, without_pictures};
-use crate::subject::Subject;
+use crate::metrics::EndCause;
+use crate::subject::{Subject, SubjectLevel};
+use crate::thought::AnswerLimit;
 use crate::tokens;
 use crate::turn::{Turn, is_of_use};
-use base::Digest;
+use base::{Digest, Seed};
 use engine::analysis::Avatar;
-use engine::describe::Guide;
+use engine::describe::{self, Guide};
 use engine::syntax::print_bare;
 use engine::{Action, Analysis, Outcome};
 use minijinja::Environment;
@@ -38,18 +40,20 @@ use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use render::Style;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The version of the templates and the English rules. It is incremented whenever their wording changes, so
 /// that results with different prompts are easy to tell apart.
-pub const VERSION: u32 = 11;
+pub const VERSION: u32 = 12;
 
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 7] = [
     ("standard_static.j2", include_str!("templates/standard_static.j2")),
     ("standard_turn.j2", include_str!("templates/standard_turn.j2")),
     ("reference_static.j2", include_str!("templates/reference_static.j2")),
     ("reference_turn.j2", include_str!("templates/reference_turn.j2")),
     ("ending.j2", include_str!("templates/ending.j2")),
     ("complaint.j2", include_str!("templates/complaint.j2")),
+    ("limit.j2", include_str!("templates/limit.j2")),
 ];
 
 /// The templates for [`PromptStyle::Discover`]. They are not in the shared list, because the digests of the
@@ -77,6 +81,10 @@ pub struct Prompter {
     actions: Vec<Action>,
     /// `true` if the game has resources that the avatar can hold.
     holding: bool,
+    /// The highest possible score on each level, by level number. Levels without a proved limit are missing.
+    most_points: BTreeMap<usize, i64>,
+    /// The limit on each answer's length, if any.
+    answer_limit: Option<AnswerLimit>,
     static_part: String,
     static_tokens: Vec<PartTokens>,
 }
@@ -187,6 +195,8 @@ impl Prompter {
             mask,
             actions,
             holding: !analysis.resources().is_empty(),
+            most_points: most_points(subject),
+            answer_limit: None,
             static_part: String::new(),
             static_tokens: Vec::new(),
             commit,
@@ -195,6 +205,24 @@ impl Prompter {
         prompter.static_part = prompter.write_static(analysis, limit);
         prompter.static_tokens = by_section(&prompter.static_part);
         Ok(prompter)
+    }
+
+    /// States a limit on each answer's length at the end of the static part. The player enforces the limit.
+    #[must_use]
+    pub fn with_answer_limit(mut self, limit: Option<AnswerLimit>) -> Prompter {
+        let Some(limit) = limit else { return self };
+        let (is_in_words, most) = (matches!(limit, AnswerLimit::Words(_)), limit.most());
+        let limited = data(serde_json::json!({ "is_in_words": is_in_words, "most": most }));
+        let sentences = self.render("limit.j2", limited);
+        self.static_part = format!("{}\n{}", self.static_part, sentences.trim_end());
+        self.static_tokens = by_section(&self.static_part);
+        self.answer_limit = Some(limit);
+        self
+    }
+
+    /// Returns the limit on each answer's length, if any.
+    pub fn answer_limit(&self) -> Option<AnswerLimit> {
+        self.answer_limit
     }
 
     /// Returns the prompt settings.
@@ -217,7 +245,8 @@ impl Prompter {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings and the number of actions per decision. If
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings, the number of actions per decision
+    /// and the limit on answers. If
     /// two runs of the same game have the same digest, [`engine::SEMANTICS`] and step limit, they have the same
     /// prompts.
     pub fn digest(&self) -> Digest {
@@ -231,6 +260,9 @@ impl Prompter {
         }
         if let Some(commit) = self.commit.aid() {
             hasher.update(commit.as_bytes());
+        }
+        if let Some(limit) = self.answer_limit {
+            hasher.update(format!("{limit:?}").as_bytes());
         }
         Digest::from_bytes(*hasher.finalize().as_bytes())
     }
@@ -301,8 +333,8 @@ impl Prompter {
         )
     }
 
-    /// Returns an episode's last message, with the outcome, the score and the final state. `last` contains
-    /// the final observation. No answer is expected, so the message is not sent to language models.
+    /// Returns an episode's last message, with the outcome, the rules that ended the game, the score and the final
+    /// state. `last` contains the final observation. No answer is expected, so the message is not sent to language models.
     pub fn ending(&self, last: &Turn<'_>) -> String {
         let outcome = match last.observation.outcome {
             Outcome::Won => "won",
@@ -314,6 +346,7 @@ impl Prompter {
         let end = self.render(
             "ending.j2",
             data(serde_json::json!({
+                "causes": self.causes(last),
                 "outcome": outcome,
                 "limit": last.limit,
                 "steps": last.number,
@@ -321,6 +354,20 @@ impl Prompter {
             })),
         );
         format!("{}\n\n{}", end.trim_end(), self.write_turn(last, &[]))
+    }
+
+    /// Returns the sentences about the rules that ended the game. Prompts without rules do not reveal them.
+    fn causes(&self, last: &Turn<'_>) -> Vec<String> {
+        let Some(EndCause { termination, interaction }) = last.cause else { return Vec::new() };
+        if self.settings.rules == Rules::None {
+            return Vec::new();
+        }
+        let masked = self.mask.as_ref().map(|mask| Analysis::of(&mask.game));
+        let analysis = masked.as_ref().unwrap_or(&last.subject.analysis);
+        let is_won = last.observation.outcome == Outcome::Won;
+        let ended = termination.and_then(|line| describe::termination(analysis, line, is_won));
+        let before = interaction.map(|line| describe::interaction(analysis, line)).unwrap_or_default();
+        ended.into_iter().chain(before).collect()
     }
 
     /// Reads a turn's answer: one action, or a plan with as many actions as are due.
@@ -389,8 +436,10 @@ impl Prompter {
         let seen = mask(turn.observation);
         let before = turn.before.as_ref().and_then(|before| mask(before.observation));
         let previous = turn.series.and_then(|series| series.previous).map(|end| self.told_end(end));
+        let most_points = self.most_points.get(&turn.level).copied();
         let view = turn::View {
             previous,
+            most_points: most_points.filter(|_| self.settings.rules != Rules::None),
             legend: &self.legend,
             settings: &self.settings,
             actions: &self.actions,
@@ -422,6 +471,15 @@ impl Prompter {
         let template = self.environment.get_template(template).expect("the template exists");
         template.render(data).expect("the templates are ours, and a test writes with each")
     }
+}
+
+/// Returns the highest possible score on each level whose rules limit it, by level number.
+fn most_points(subject: &Subject) -> BTreeMap<usize, i64> {
+    let most = |level: &SubjectLevel| {
+        let start = subject.game.start(&level.level, Seed::from_text("start"));
+        Some((level.number, subject.analysis.most_points(&start)?))
+    };
+    subject.levels.iter().filter_map(most).collect()
 }
 
 /// Returns `true` if an action is available in every avatar state.

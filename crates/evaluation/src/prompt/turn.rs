@@ -15,6 +15,8 @@ use serde_json::{Value, json};
 pub(super) struct View<'a> {
     /// The data about the end of the previous level, if any.
     pub(super) previous: Option<Value>,
+    /// The highest possible score, if it is known.
+    pub(super) most_points: Option<i64>,
     pub(super) legend: &'a Legend,
     pub(super) settings: &'a PromptSettings,
     /// The actions listed in the static part.
@@ -43,6 +45,7 @@ impl View<'_> {
             "tick": now.ticks,
             "last_tick": last.min(limit),
             "score": now.score.to_string(),
+            "most_points": self.most_points,
             "avatar": now.avatar.as_ref().map(avatar),
             "holds": self.holding.then(|| holds(now)),
             "reward": turn.before.map(|before| signed(before.reward)),

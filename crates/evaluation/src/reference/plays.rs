@@ -101,6 +101,7 @@ impl ReferencePlays {
                 seed: self.seed,
                 max_steps: self.max_steps,
                 commit,
+                max_output_tokens: None,
                 track: None,
                 series: None,
             };

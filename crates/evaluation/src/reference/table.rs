@@ -40,7 +40,7 @@ pub const SCALE_PLAYERS: [ScalePlayer; 10] = [
     planner("guided-mcts-1", "guided-mcts", "guided-mcts:200"),
     planner("width-1", "width", "width:200"),
     planner("olets-1", "olets", "olets:200"),
-    ScalePlayer { name: "reflex-4", family: "reflex", player: "reflex", dimension: Dimension::Reader },
+    ScalePlayer { name: "reflex-5", family: "reflex", player: "reflex", dimension: Dimension::Reader },
 ];
 
 /// Returns the scale's reference player with the given name; `None` if there is no such player.

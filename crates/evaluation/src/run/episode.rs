@@ -3,6 +3,7 @@
 use crate::commitment::Commitment;
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal, SCHEMA, Status};
+use crate::metrics::EndCause;
 use crate::player::{Choice, Contestant, Halt, Validity};
 use crate::predictions::{Grade, Predicted, grade};
 use crate::prompt::kinds_at_start;
@@ -29,6 +30,8 @@ pub struct Task<'a> {
     pub max_steps: u64,
     /// The number of actions that the player commits to at each decision.
     pub commit: Commitment,
+    /// The maximum number of output tokens per answer, including reasoning, if the user has set it.
+    pub max_output_tokens: Option<u32>,
     /// The track (bundle of prompt settings) with its version, if any.
     pub track: Option<&'a str>,
     /// The level's position in a series, or `None` for a level played alone.
@@ -76,19 +79,28 @@ impl Task<'_> {
     /// # Errors
     /// Returns a clause that states the first difference.
     pub fn compare_start(&self, start: &Event) -> Result<(), String> {
-        let Event::Start { game, level, run, seed, max_steps, commit, track, series, .. } = start else {
+        let Event::Start {
+            game, level, run, seed, max_steps, commit, max_output_tokens, track, series, ..
+        } = start
+        else {
             return Ok(());
         };
         let place = |series: Option<SeriesPlace>| {
             series.map_or("none".to_owned(), |place| format!("{} of {}", place.index + 1, place.of))
         };
         let on = |track: Option<&str>| track.unwrap_or("none").to_owned();
+        let tokens = |most: Option<u32>| most.map_or("none".to_owned(), |most| most.to_string());
         let fields = [
             ("game", game.clone(), self.subject.id.clone()),
             ("level", level.to_string(), self.level.number.to_string()),
             ("run", run.to_string(), self.run.to_string()),
             ("an episode with `max_steps`", max_steps.to_string(), self.max_steps.to_string()),
             ("an episode with `commit`", commit.to_string(), self.commit.to_string()),
+            (
+                "an episode with `max_output_tokens`",
+                tokens(*max_output_tokens),
+                tokens(self.max_output_tokens),
+            ),
             ("an episode with `track`", on(track.as_deref()), on(self.track)),
             ("a level with the series position", place(*series), place(self.series)),
         ];
@@ -178,7 +190,7 @@ pub(crate) fn play_watched(
     if !has_ended && let Err(halt) = play.predict(journal)? {
         return halted(halt, journal);
     }
-    play.finish();
+    play.finish(journal);
     let outcome = play.state.outcome();
     let status = if play.state.is_over() { Status::Over } else { Status::StepLimit };
     if !has_ended {
@@ -245,7 +257,8 @@ impl<'a> Playing<'a> {
 
     /// Returns the event for the first line of the log.
     fn start_event(&self) -> Event {
-        let Task { subject, level, run, max_steps, commit, track, series, .. } = *self.task;
+        let Task { subject, level, run, max_steps, commit, max_output_tokens, track, series, .. } =
+            *self.task;
         let (game, game_digest) = (subject.id.clone(), subject.game.digest());
         Event::Start {
             schema: SCHEMA,
@@ -258,6 +271,7 @@ impl<'a> Playing<'a> {
             seed: self.task.chance(),
             max_steps,
             commit,
+            max_output_tokens,
             track: track.map(str::to_owned),
             series,
             hash: self.state.state_hash(),
@@ -366,9 +380,15 @@ impl<'a> Playing<'a> {
     }
 
     /// Shows the final state to the agent.
-    fn finish(&mut self) {
+    fn finish(&mut self, journal: &Journal) {
         if let Contestant::Agent(agent) = &mut *self.contestant {
-            agent.end(&Turn::of(self.task, self.steps, &self.seen, &self.recent, &[], self.previous));
+            let action = |event: &Event| match event {
+                Event::Step { action, .. } => Some(*action),
+                _ => None,
+            };
+            let actions: Vec<Action> = journal.events().iter().filter_map(action).collect();
+            let last = Turn::of(self.task, self.steps, &self.seen, &self.recent, &[], self.previous);
+            agent.end(&Turn { cause: Some(EndCause::replayed(self.task, &actions)), ..last });
         }
     }
 

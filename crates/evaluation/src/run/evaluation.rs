@@ -463,6 +463,7 @@ pub fn tasks<'a>(settings: &'a Settings, subjects: &'a [Subject]) -> Vec<Task<'a
             seed,
             max_steps,
             commit: settings.commit,
+            max_output_tokens: settings.max_output_tokens,
             track: settings.track.as_deref(),
             series: place,
         })
@@ -515,6 +516,7 @@ fn difference(recorded: &Settings, requested: &Settings) -> Option<String> {
         "entrant" => "player, model, prompt or decoding".to_owned(),
         "games" => "choice of games or levels".to_owned(),
         "max_steps" => "--max-steps".to_owned(),
+        "max_output_tokens" => "--max-output-tokens".to_owned(),
         "runs" | "seed" | "commit" | "track" => format!("--{name}"),
         "adaptive" => "scale, --target-error, --episodes or --batch".to_owned(),
         "suite" | "semantics" => "version of arcade".to_owned(),

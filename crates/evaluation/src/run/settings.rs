@@ -48,6 +48,9 @@ pub struct Settings {
     /// The number of actions that the player commits to at each decision.
     #[serde(default, skip_serializing_if = "Commitment::is_one")]
     pub commit: Commitment,
+    /// The maximum number of output tokens per answer, including reasoning, if the user has set it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_output_tokens: Option<u32>,
     /// The track (bundle of prompt settings) with its version, such as `masked@1`, or `None` for custom prompts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub track: Option<String>,

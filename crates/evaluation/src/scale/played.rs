@@ -98,8 +98,9 @@ impl Settings {
         let track = self.track.as_deref().and_then(|id| id.split('@').next());
         let track = track.filter(|name| *name != Track::Told.name()).map(|name| format!("--track {name}"));
         let commit = (!self.commit.is_one()).then(|| format!("--commit {}", self.commit));
+        let tokens = self.max_output_tokens.map(|most| format!("--max-output-tokens {most}"));
         let steps = (self.max_steps != max_steps).then(|| format!("--max-steps {}", self.max_steps));
-        let all = track.into_iter().chain(commit).chain(steps).collect_vec();
+        let all = track.into_iter().chain(commit).chain(tokens).chain(steps).collect_vec();
         (!all.is_empty()).then(|| all.join(" "))
     }
 }
@@ -123,6 +124,7 @@ mod tests {
             runs: 1,
             max_steps,
             commit: commit.parse::<Commitment>().unwrap(),
+            max_output_tokens: None,
             track: track.map(str::to_owned),
             series: 1,
             adaptive: None,

@@ -256,6 +256,7 @@ mod tests {
                     played: &[],
                     actions,
                     series: None,
+                    cause: None,
                 };
                 let messages = prompter.prompt(&turn, &[], &[]).messages;
                 let shown = Shown::of(&messages).unwrap();

@@ -29,7 +29,9 @@ pub use episodes::scores::{Estimate, Scores, StudyEpisode};
 pub use games::difficulty::{DifficultyLabel, DifficultyRow};
 pub use games::marks::MarkRow;
 pub use games::taxonomy::TaxonomyRow;
-pub use players::horizon::{CommitmentRate, Foresight, HorizonRow};
+pub use players::horizon::Horizon;
+pub use players::horizon::commitment::{CommitmentRate, Foresight, HorizonRow};
+pub use players::horizon::thinking::{BudgetRate, ThinkingRow};
 pub use players::leaderboard::LeaderRow;
 pub use players::player::{CONTEXTUAL, Player, ZERO_SHOT};
 pub use players::sweep::{Sweep, SweepRow};
@@ -97,6 +99,10 @@ pub struct Study {
     /// The horizons of players with results for several numbers of actions per decision, by kind of game. A horizon is
     /// the number of actions at which a player still wins half of its episodes.
     pub horizons: Vec<HorizonRow>,
+    /// The thinking horizons of players with results for several budgets (maximum numbers of output tokens per answer), by
+    /// tier (difficulty class).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub thinking: Vec<ThinkingRow>,
     /// The reference results on the levels, with the players' results on the same levels. The list is empty
     /// if the releases contain no reference results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -201,7 +207,8 @@ impl Study {
         study.ending_summaries = episodes::endings::summaries(&study);
         study.kinds = games::taxonomy::kinds(&study);
         study.taxonomy = games::taxonomy::taxonomy(&study);
-        study.horizons = players::horizon::horizons(&study);
+        study.horizons = players::horizon::commitment::horizons(&study);
+        study.thinking = players::horizon::thinking::rows(&study);
         study.marks = games::marks::rows(&study);
         study.predictions = episodes::predictions::rows(&study);
         study.power = comparisons::power::of_study(&study);
@@ -318,7 +325,8 @@ impl Study {
     /// Returns all tables of a report, in the report's order.
     pub fn tables(&self) -> Vec<Table> {
         let mut tables = players::leaderboard::tables(self);
-        tables.extend(players::horizon::table(self));
+        tables.extend(players::horizon::commitment::table(self));
+        tables.extend(players::horizon::thinking::table(self));
         tables.extend(games::marks::table(self));
         tables.extend(episodes::predictions::table(self));
         tables.extend(episodes::endings::tables(self));

@@ -1,10 +1,11 @@
 //! Reads a study from results folders.
 
+use crate::client::{ModelSettings, Prices, Usage, Usd};
 use crate::error::EvaluationError;
 use crate::log::Event;
 use crate::mask;
 use crate::metrics::EpisodeMetrics;
-use crate::run::{Evaluation, Settings, Task};
+use crate::run::{Entrant, Evaluation, Settings, Task};
 use crate::study::games::mirror;
 use crate::study::players::person::{PersonResults, told_apart};
 use crate::study::{Player, Study, StudyGame};
@@ -52,6 +53,7 @@ impl Study {
             let measured = tasks.par_iter().filter_map(measure);
             let mut measured = measured.collect::<Result<Vec<EpisodeMetrics>, EvaluationError>>()?;
             measured.iter_mut().for_each(|episode| episode.folder = Some(place));
+            price(&evaluation.settings.entrant, &mut measured);
             let open = tasks.len() - measured.len();
             if evaluation.settings.adaptive.is_some() {
                 notes.push(format!(
@@ -100,6 +102,22 @@ impl Study {
             );
         }
         Ok(study)
+    }
+}
+
+/// Computes the costs of a model's episodes, if the embedded price table lists the model.
+fn price(entrant: &Entrant, episodes: &mut [EpisodeMetrics]) {
+    let model = entrant.details.get("model").cloned();
+    let model = model.and_then(|model| serde_json::from_value::<ModelSettings>(model).ok());
+    let Some(price) = model.and_then(|own| Prices::embedded().find(own.provider, &own.model)) else { return };
+    for EpisodeMetrics { spending, cost, .. } in episodes {
+        let usage = Usage {
+            input_tokens: spending.input_tokens,
+            cached_input_tokens: spending.cached_input_tokens,
+            output_tokens: spending.output_tokens,
+            ..Usage::default()
+        };
+        *cost = price.cost(&usage).map(Usd::dollars);
     }
 }
 

@@ -50,7 +50,17 @@ fn subject() -> Subject {
 fn task<'a>(subject: &'a Subject, commit: &str, max_steps: u64) -> Task<'a> {
     let commit = commit.parse().unwrap();
     let seed = Seed::from_text("commitment");
-    Task { subject, level: &subject.levels[0], run: 0, seed, max_steps, commit, track: None, series: None }
+    Task {
+        subject,
+        level: &subject.levels[0],
+        run: 0,
+        seed,
+        max_steps,
+        commit,
+        max_output_tokens: None,
+        track: None,
+        series: None,
+    }
 }
 
 /// An agent that answers with the given plans, and records the turns that it is shown. A plan of `None` is an

@@ -39,6 +39,7 @@ fn settings(subjects: &[Subject], seed: &str) -> Settings {
         runs: 1,
         max_steps: 3,
         commit: Commitment::ONE,
+        max_output_tokens: None,
         track: None,
         series: 1,
         adaptive: None,
@@ -316,6 +317,7 @@ fn waiting_episodes_give_up_when_the_evaluation_stops() {
                 seed,
                 max_steps: 3,
                 commit: Commitment::ONE,
+                max_output_tokens: None,
                 track: None,
                 series: None,
             };

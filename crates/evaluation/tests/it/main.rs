@@ -3,6 +3,7 @@
 extern crate infinite_arcade_evaluation as evaluation;
 
 mod boards;
+mod budgets;
 mod commitment;
 mod games;
 mod mailbox;

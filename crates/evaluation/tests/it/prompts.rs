@@ -3,10 +3,11 @@
 //! `BLESS=1 cargo test -p infinite-arcade-evaluation --test it prompts` rewrites the files in `golden/`.
 //! Review their diff like code. A change to any word requires a new [`evaluation::prompt::VERSION`].
 
-use crate::walk::{Walk, corpus, game};
-use base::Digest;
+use crate::walk::{Walk, corpus, game, public_games};
+use base::{Digest, Seed};
 use engine::{Action, Game, Outcome};
 use evaluation::client::{ChatMessage, Role};
+use evaluation::metrics::EndCause;
 use evaluation::prompt::{
     Attempt, Encodings, Mode, Past, PromptSettings, PromptStyle, Prompter, Rules, sections,
 };
@@ -14,6 +15,7 @@ use evaluation::{Commitment, Subject};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::fs;
+use std::io::Write as _;
 use std::path::Path;
 
 fn prompter(subject: &Subject, settings: &PromptSettings) -> Prompter {
@@ -432,4 +434,60 @@ fn only_the_newest_turn_has_a_picture() {
     assert_eq!(pictures, [false, false, false, true]);
     let bytes = second.messages[3].image.as_ref().unwrap();
     assert!(bytes.starts_with(b"\x89PNG") && first.messages[1].image.as_ref() != Some(bytes));
+}
+
+/// The last message states the termination that ended the game, and the interaction that led to it. Masked prompts use
+/// masked names, and prompts without rules state neither.
+#[test]
+fn the_last_message_tells_the_rules_that_ended_the_game() {
+    let subject = game("moth-observatory");
+    let told = |settings: &PromptSettings, cause: EndCause| {
+        let mut walk = Walk::new(&subject, 0);
+        walk.now.outcome = Outcome::Lost;
+        prompter(&subject, settings).ending(&evaluation::Turn { cause: Some(cause), ..walk.turn() })
+    };
+    let is_bat = |stype: engine::SpriteType| subject.game.name(stype) == "bat";
+    let encounters = subject.analysis.encounters();
+    let interaction = encounters.iter().find(|met| met.second.is_some_and(is_bat)).map(|met| met.line);
+    let termination = subject.analysis.goals().iter().find(|goal| goal.can_lose()).map(|goal| goal.line);
+    let cause = EndCause { termination, interaction };
+    let standard = told(&PromptSettings::default(), cause);
+    let rules = "The rules that ended the game:\n- You lose when you are gone.\n- You die on touching the bat. You lose 3 points.\n\n## Turn";
+    assert!(standard.contains(rules), "{standard}");
+    let masked = told(&PromptSettings { masked_names: true, ..PromptSettings::default() }, cause);
+    assert!(masked.contains("- You die on touching the t") && !masked.contains("bat"), "{masked}");
+    let silent = told(&PromptSettings { rules: Rules::None, ..PromptSettings::default() }, cause);
+    assert!(!silent.contains("ended the game:"), "{silent}");
+}
+
+/// No episode exceeds the highest score that prompts state.
+#[test]
+fn the_highest_score_is_never_exceeded() {
+    let (mut known, mut levels, mut reached) = (0, 0, 0);
+    for subject in corpus().into_iter().chain(public_games()) {
+        for level in 0..subject.levels.len() {
+            levels += 1;
+            let start = subject.game.start(&subject.levels[level].level, Seed::from_text("start"));
+            let Some(most) = subject.analysis.most_points(&start) else { continue };
+            known += 1;
+            let mut walk = Walk::new(&subject, level);
+            let shown = prompter(&subject, &PromptSettings::default()).prompt(&walk.turn(), &[], &[]).shown;
+            assert!(shown.contains(&format!("Score 0 of at most {most}.")), "{}: {shown}", subject.id);
+            let mut best = 0.0_f64;
+            for _ in 0..300 {
+                let goes_on = walk.step();
+                best = best.max(walk.now.score);
+                if !goes_on {
+                    break;
+                }
+            }
+            assert!(best <= most as f64, "{} level {level}: {best} of at most {most}", subject.id);
+            reached += usize::from(best == most as f64);
+        }
+    }
+    let _ = writeln!(
+        std::io::stderr(),
+        "{known} of {levels} levels have a highest score; {reached} were reached"
+    );
+    assert!(known > 10, "{known} of {levels}");
 }

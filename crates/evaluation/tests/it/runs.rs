@@ -36,6 +36,7 @@ fn settings(subjects: &[Subject]) -> Settings {
         runs: 2,
         max_steps: 25,
         commit: Commitment::ONE,
+        max_output_tokens: None,
         track: None,
         series: 1,
         adaptive: None,

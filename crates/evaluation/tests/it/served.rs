@@ -80,6 +80,7 @@ fn beginning(
             }),
             actions: &offered(game, &state),
             series: None,
+            cause: None,
         };
         let prompt = prompter.prompt(&turn, &past, &[]);
         let answer = answer(&prompt.messages);
@@ -243,6 +244,7 @@ fn planners_refuse_games_with_hidden_state() {
             played: &[],
             actions,
             series: None,
+            cause: None,
         };
         player.answer(&prompter.prompt(&turn, &[], &[]).messages).unwrap_err().to_string()
     };

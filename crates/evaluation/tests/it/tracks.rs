@@ -308,6 +308,7 @@ fn settings(name: &str, track: Track, subjects: &[Subject]) -> Settings {
         runs: 2,
         max_steps: 8,
         commit: Commitment::ONE,
+        max_output_tokens: None,
         track: None,
         series: 1,
         adaptive: None,

@@ -96,6 +96,7 @@ impl<'a> Walk<'a> {
             }),
             actions: &self.actions,
             series: None,
+            cause: None,
         }
     }
 

@@ -83,9 +83,15 @@ fn headlines(study: &Study) -> Vec<Fact> {
         .collect();
     let horizon = study.horizons.iter().find(|row| !row.player.is_reference()).or(study.horizons.first());
     facts.extend(horizon.map(|row| {
-        Fact::plain(format!("horizon of {}", row.title()), row.told_value())
+        Fact::plain(format!("horizon of {}", row.title()), row.horizon.told_value())
             .of("ticks ahead".to_owned())
-            .within(row.told_interval())
+            .within(row.horizon.told_interval())
+    }));
+    let thinking = study.thinking.iter().find(|row| row.tier.is_none()).or(study.thinking.first());
+    facts.extend(thinking.map(|row| {
+        Fact::plain(format!("thinking horizon of {}", row.title()), row.horizon.told_value())
+            .of("tokens per answer".to_owned())
+            .within(row.horizon.told_interval())
     }));
     let ended = study.episodes.iter().filter(|episode| episode.metrics.counts()).count() as u64;
     facts.push(Fact::plain("episodes", words::grouped(ended)));

@@ -5,7 +5,8 @@ use crate::page::plots::{
 };
 use crate::page::words;
 use evaluation::study::{
-    CORRELATED, Correlation, FailureMeasure, HorizonRow, Matrix, Measure, Scope, Scores, Study, Test,
+    CORRELATED, Correlation, FailureMeasure, Horizon, HorizonRow, Matrix, Measure, Scope, Scores, Study,
+    Test, ThinkingRow,
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -236,17 +237,38 @@ pub(super) fn horizons(study: &Study) -> Vec<Plot> {
                 Some(CurvePoint { at: found.ticks, name, share: rate.value, band })
             })
             .collect();
-        let head = row.title();
-        let marked = row.horizon.map(|horizon| (horizon.value, [horizon.low, horizon.high]));
-        let svg = curve(&format!("{head}: win rate by commitment"), &points, marked);
-        let (value, interval) = (row.told_value(), row.told_interval());
-        let caption = match value == interval {
-            true => format!("Horizon: {value} ticks"),
-            false => format!("Horizon: {value} ticks, 95%: {interval}"),
-        };
-        Plot { head, svg, caption }
+        horizon_plot(row.title(), "commitment", &points, row.horizon, "ticks")
     };
     study.horizons.iter().map(plot).collect()
+}
+
+/// Plots win rates by budget of output tokens, one plot per player and tier.
+pub(super) fn thinking(study: &Study) -> Vec<Plot> {
+    let plot = |row: &ThinkingRow| {
+        let points: Vec<CurvePoint> = row
+            .rates
+            .iter()
+            .filter_map(|found| {
+                let rate = found.rate?;
+                let (at, name) = (f64::from(found.budget), found.budget.to_string());
+                Some(CurvePoint { at, name, share: rate.value, band: [rate.low, rate.high] })
+            })
+            .collect();
+        horizon_plot(row.title(), "tokens per answer", &points, row.horizon, "tokens per answer")
+    };
+    study.thinking.iter().map(plot).collect()
+}
+
+/// Plots win rates by a dose, with the dose at which half of the episodes are won.
+fn horizon_plot(head: String, by: &str, points: &[CurvePoint], found: Horizon, unit: &str) -> Plot {
+    let marked = found.horizon.map(|horizon| (horizon.value, [horizon.low, horizon.high]));
+    let svg = curve(&format!("{head}: win rate by {by}"), points, marked);
+    let (value, interval) = (found.told_value(), found.told_interval());
+    let caption = match value == interval {
+        true => format!("Horizon: {value} {unit}"),
+        false => format!("Horizon: {value} {unit}, 95%: {interval}"),
+    };
+    Plot { head, svg, caption }
 }
 
 /// Plots win rates by game, one plot per player.

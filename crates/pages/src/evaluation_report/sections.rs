@@ -50,6 +50,16 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     horizons.tables = of(&["horizons"]);
     let horizons = Some(horizons).filter(|section| !section.tables.is_empty());
 
+    let mut thinking = Section::new(
+        "thinking",
+        "How much players must think",
+        "The win rate by the maximum number of output tokens per answer. The mark below a curve is the thinking \
+         horizon.",
+    );
+    thinking.plots = plots::thinking(study);
+    thinking.tables = of(&["thinking"]);
+    let thinking = Some(thinking).filter(|section| !section.tables.is_empty());
+
     let mut marks = Section::new(
         "marks",
         "Compared with the marks of the release",
@@ -121,7 +131,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut answers = Section::new("answers", "Answers, failures and times", "");
     answers.tables = of(&["answers", "times"]);
 
-    let first = std::iter::once(leaders).chain(horizons).chain(marks);
+    let first = std::iter::once(leaders).chain(horizons).chain(thinking).chain(marks);
     let others = [kinds, losses, levels, games, pairs, modes, aids, walked, correlations, answers];
     (first.chain(others).collect(), rules)
 }

@@ -3,5 +3,6 @@
 
 pub(crate) mod attain;
 pub(crate) mod goal;
+mod points;
 pub(crate) mod requirement;
 pub(crate) mod win_methods;

@@ -99,6 +99,50 @@ fn players_commit_to_plans() {
     assert!(text(&report.stdout).contains("mcts:20 (commit=3)"), "{}", text(&report.stdout));
 }
 
+/// A budget of thought is part of the player's name, and of the data that `--resume` compares. Two budgets give a thinking
+/// horizon.
+#[cfg(unix)]
+#[test]
+fn budgets_of_thought_are_reported() {
+    let home = tempfile::tempdir().unwrap();
+    // The program wins only if it may use 100 tokens: it walks along the first level of the game in the folder.
+    let script = "while read line; do case $line in *'\"type\":\"turn\"'*) echo '{\"action\":\"right\",\"output_tokens\":60}';; esac; done";
+    let player = format!("cmd:sh -c {}", shlex::try_quote(script).unwrap());
+    let game = "BasicGame\n  SpriteSet\n    goal > Door\n    avatar > MovingAvatar\n  LevelMapping\n    g > goal\n  InteractionSet\n    avatar wall > stepBack\n    goal avatar > killSprite\n  TerminationSet\n    SpriteCounter stype=goal win=True\n";
+    std::fs::write(home.path().join("hall.vgdl"), game).unwrap();
+    std::fs::write(home.path().join("hall_lvl0.txt"), "wwwwwww\nwA   gw\nwwwwwww\n").unwrap();
+    let evaluate = |tokens: &'static str, more: &[&str], status| {
+        let args = [
+            "--json",
+            "evaluate",
+            "hall.vgdl",
+            "--max-steps",
+            "6",
+            "--player",
+            &player,
+            "--max-output-tokens",
+            tokens,
+        ];
+        run(home.path(), &[&args, more].concat(), status)
+    };
+    let won = json(&evaluate("100", &["--out", "wide"], 0));
+    assert_eq!(
+        (&won["entrant"]["aids"], &won["tally"]["won"]),
+        (&serde_json::json!(["max-output-tokens=100"]), &1.into())
+    );
+    assert_eq!(json(&evaluate("50", &["--out", "narrow"], 0))["tally"]["won"], 0);
+    let other = evaluate("70", &["--out", "wide", "--resume"], 2);
+    assert!(text(&other.stderr).contains("different"), "{}", text(&other.stderr));
+    run(home.path(), &["report", "wide", "narrow", "--out", "report"], 0);
+    let report = std::fs::read_to_string(home.path().join("report/report.md")).unwrap();
+    assert!(report.contains("50: 0%, 100: 100%") && report.contains("50: –, 100: 240"), "{report}");
+    assert!(
+        std::fs::read_to_string(home.path().join("report/report.html"))
+            .unwrap()
+            .contains("How much players must think")
+    );
+}
+
 /// A person at a terminal sees the same prompts as a model, and may leave in the middle of an episode.
 #[test]
 fn human_players_resume() {
@@ -179,6 +223,14 @@ fn malformed_requests_are_reported() {
         (
             &["hailglass", "--player", "mcts", "--timeout", "9"],
             "--timeout applies only to language models (--model) and",
+        ),
+        (
+            &["hailglass", "--player", "random", "--max-output-tokens", "5"],
+            "--max-output-tokens applies only to language models (--model), mailboxes and programs",
+        ),
+        (
+            &["hailglass", "--model", "anthropic:m", "--max-output-tokens", "50", "--reasoning-effort", "50"],
+            "--reasoning-effort 50 leaves no tokens for the answer",
         ),
         (
             &["hailglass", "--player", "random", "--max-cost", "5"],

@@ -71,6 +71,14 @@ impl Provider {
             }
             decoding.max_output_tokens.get_or_insert(anthropic::MAX_TOKENS);
         }
+        let effort = requested.reasoning_effort.as_deref().and_then(|effort| effort.parse::<u32>().ok());
+        if let Some((effort, most)) = effort.zip(decoding.max_output_tokens).filter(|(own, most)| own >= most)
+        {
+            return Err(EvaluationError::Malformed(format!(
+                "--reasoning-effort {effort} leaves no tokens for the answer; pass fewer than the {most} tokens of \
+                 --max-output-tokens"
+            )));
+        }
         Ok(decoding)
     }
 

@@ -7,7 +7,7 @@ use super::files::{
 };
 use super::folder::Mailbox;
 use crate::client::{
-    ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model, Role,
+    ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Finish, Model, Role, Usage,
 };
 use crate::error::EvaluationError;
 use crate::log::{Event, Journal};
@@ -15,6 +15,7 @@ use crate::player::{Agent, Choice, Halt, ModelPlayer, Said};
 use crate::prompt::Prompter;
 use crate::run::Task;
 use crate::run::clock::Stopwatch;
+use crate::thought::stated_count;
 use crate::turn::Turn;
 use engine::Outcome;
 use itertools::Itertools;
@@ -318,7 +319,9 @@ impl EpisodeFolder {
         let text = self.wait(open.address)?;
         open.address.attempt += 1;
         let served_by = Some(self.mailbox.player.clone());
-        Ok(ChatReply { served_by, latency_ms: asked.milliseconds(), ..ChatReply::new(text, Finish::Stop) })
+        let usage = Usage { output_tokens: stated_count(&text), ..Usage::default() };
+        let latency_ms = asked.milliseconds();
+        Ok(ChatReply { served_by, usage, latency_ms, ..ChatReply::new(text, Finish::Stop) })
     }
 }
 

@@ -30,6 +30,9 @@ pub(super) enum Message<'a> {
         /// The number of actions per answer, or `all`. If the field is missing, each answer has one action.
         #[serde(skip_serializing_if = "Commitment::is_one")]
         commit: Commitment,
+        /// The maximum number of output tokens per answer, including reasoning, if there is a limit.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        max_output_tokens: Option<u32>,
         /// The level's position in a series, if the process plays a series.
         #[serde(skip_serializing_if = "Option::is_none")]
         series: Option<SeriesPlace>,

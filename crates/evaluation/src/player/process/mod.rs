@@ -19,7 +19,7 @@ pub use message::PROTOCOL;
 #[cfg(unix)]
 pub use running::end_all;
 
-use crate::client::{ChatReply, Finish};
+use crate::client::{ChatReply, Finish, Usage};
 use crate::encoding;
 use crate::legend::{Legend, LegendOptions};
 use crate::log::{Event, Journal, Reply, ReplyClass};
@@ -29,6 +29,7 @@ use crate::predictions::{Predicted, TouchFact};
 use crate::prompt::limited;
 use crate::run::Task;
 use crate::run::clock::Stopwatch;
+use crate::thought::AnswerLimit;
 use crate::track::Track;
 use crate::turn::{Turn, is_of_use};
 use child::{LineProcess, NoLine};
@@ -87,6 +88,8 @@ pub struct Process {
     notices: Notices,
     /// The track (bundle of prompt settings), which determines the information sent to the process.
     track: Track,
+    /// The maximum number of output tokens per answer, including reasoning, if there is a limit.
+    max_output_tokens: Option<u32>,
     /// `true` if the process has received the `hello` message for this level.
     is_greeted: bool,
 }
@@ -119,7 +122,16 @@ impl Process {
         })?;
         let notices = Notices(Arc::new(|_| ()));
         let (track, is_greeted) = (Track::Told, false);
-        Ok(Process { command: command.to_owned(), words, config, running: None, notices, track, is_greeted })
+        Ok(Process {
+            command: command.to_owned(),
+            words,
+            config,
+            running: None,
+            notices,
+            track,
+            max_output_tokens: None,
+            is_greeted,
+        })
     }
 
     /// Sets the function that shows notices to the user. For example, a notice reports that the process has
@@ -135,6 +147,13 @@ impl Process {
     #[must_use]
     pub fn on_track(mut self, track: Track) -> Process {
         self.track = track;
+        self
+    }
+
+    /// Sets the maximum number of output tokens per answer. Answers that report more count as no answer.
+    #[must_use]
+    pub fn with_max_output_tokens(mut self, most: Option<u32>) -> Process {
+        self.max_output_tokens = most;
         self
     }
 
@@ -169,7 +188,7 @@ impl Process {
             }
         };
         if !std::mem::replace(&mut self.is_greeted, true) {
-            running.process.send_line(line(&running.shown.hello(turn)));
+            running.process.send_line(line(&running.shown.hello(turn, self.max_output_tokens)));
         }
         Ok(self.running.insert(running))
     }
@@ -181,6 +200,40 @@ impl Process {
             "`{command}` has not answered since its answer at step {number} was rejected as `invalid`: each \
              `invalid` message requires a new answer; waiting for up to {seconds} s"
         )
+    }
+
+    /// Records the thought that a usable answer reports, if any. Returns `true` if the thought exceeds the limit.
+    fn record_thought(
+        &self,
+        journal: &mut Journal,
+        turn: &Turn<'_>,
+        attempt: u32,
+        answer: &[u8],
+    ) -> Result<bool, Halt> {
+        let Thought { output_tokens, reasoning } = serde_json::from_slice(answer).unwrap_or_default();
+        let id = (turn.number, attempt);
+        // An interrupted run may have recorded the answer that the process has now given again.
+        let recorded = journal.pending().iter().find_map(|event| match event {
+            Event::Reply(reply) if (reply.step, reply.attempt) == id => Some(reply.class),
+            _ => None,
+        });
+        if let Some(class) = recorded {
+            return Ok(class == ReplyClass::Truncated);
+        }
+        if output_tokens.is_none() && reasoning.is_none() {
+            return Ok(false);
+        }
+        let usage = Usage { output_tokens, ..Usage::default() };
+        let reply = ChatReply { reasoning, usage, ..ChatReply::new(String::new(), Finish::Stop) };
+        let limit = self.max_output_tokens.map(AnswerLimit::Tokens);
+        let is_excess = limit.is_some_and(|limit| limit.is_exceeded(&reply));
+        let (class, finish) = match is_excess {
+            true => (ReplyClass::Truncated, Finish::Excess),
+            false => (ReplyClass::Strict, Finish::Stop),
+        };
+        let reply = Reply::of(turn.number, attempt, class, ChatReply { finish, ..reply });
+        journal.push(Event::Reply(reply)).map_err(|error| Halt::Log(error.to_string()))?;
+        Ok(is_excess)
     }
 
     fn not_started(&self, why: &str) -> Halt {
@@ -288,7 +341,11 @@ impl Agent for Process {
                 Err(no_line) => return Err(self.failed(no_line, turn, attempt)),
             };
             match read(&answer, turn) {
-                Ok(actions) => return Ok(Choice::plan(actions)),
+                Ok(actions) => {
+                    let is_excess = self.record_thought(journal, turn, attempt, &answer)?;
+                    let excess = || Choice::nothing(Validity::Truncated);
+                    return Ok(if is_excess { excess() } else { Choice::plan(actions) });
+                }
                 Err(message) => {
                     record(journal, turn, attempt, &answer)?;
                     if attempt < MAX_REASKS {
@@ -372,7 +429,7 @@ impl Shown {
         self.mask.as_ref().map_or(Cow::Borrowed(seen), |mask| Cow::Owned(mask.observation(seen)))
     }
 
-    fn hello<'a>(&'a self, turn: &'a Turn<'_>) -> Message<'a> {
+    fn hello<'a>(&'a self, turn: &'a Turn<'_>, max_output_tokens: Option<u32>) -> Message<'a> {
         let mut legend: BTreeMap<char, Vec<&str>> = BTreeMap::new();
         for entry in self.legend.entries() {
             legend.entry(entry.symbol).or_default().push(&entry.name);
@@ -386,6 +443,7 @@ impl Shown {
             rows: turn.observation.rows,
             step_limit: turn.limit,
             commit: turn.commit,
+            max_output_tokens,
             series: turn.series.map(|series| series.place),
         }
     }
@@ -410,6 +468,16 @@ impl Shown {
 struct Answer {
     action: Option<String>,
     actions: Option<Vec<String>>,
+}
+
+/// The thought that an answer may report.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Thought {
+    /// The number of output tokens, including reasoning.
+    output_tokens: Option<u64>,
+    /// The reasoning, whose words count if there is no number of tokens.
+    reasoning: Option<String>,
 }
 
 /// The turn number that an answer may state.
@@ -518,7 +586,10 @@ fn record(journal: &mut Journal, turn: &Turn<'_>, attempt: u32, answer: &[u8]) -
         return Ok(());
     }
     let text = String::from_utf8_lossy(answer).chars().take(MAX_RECORDED).collect();
-    let reply = Reply::of(turn.number, attempt, ReplyClass::Invalid, ChatReply::new(text, Finish::Other));
+    let Thought { output_tokens, reasoning } = serde_json::from_slice(answer).unwrap_or_default();
+    let usage = Usage { output_tokens, ..Usage::default() };
+    let reply = ChatReply { reasoning, usage, ..ChatReply::new(text, Finish::Other) };
+    let reply = Reply::of(turn.number, attempt, ReplyClass::Invalid, reply);
     journal.push(Event::Reply(reply)).map_err(|error| Halt::Log(error.to_string()))
 }
 

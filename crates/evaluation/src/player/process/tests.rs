@@ -70,6 +70,7 @@ impl Board {
             }),
             actions: &actions,
             series: None,
+            cause: None,
         };
         use_it(&mut self.agent, &mut self.journal, &turn)
     }
@@ -407,4 +408,49 @@ fn programs_commit_to_plans() {
     assert_eq!(board.decide(), Ok(Choice::plan(Vec::new())));
     let wrong = |event: &Event| matches!(event, Event::Reply(reply) if reply.class == ReplyClass::Invalid);
     assert_eq!(board.journal.events().iter().filter(|event| wrong(event)).count(), 2);
+}
+
+/// A program learns the limit from the first message, and states its tokens or its reasoning in its answers.
+#[test]
+fn programs_report_their_thought() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("heard");
+    let answers = [
+        r#"{"action":"right","output_tokens":10}"#,
+        r#"{"action":"right","output_tokens":11}"#,
+        r#"{"action":"right","reasoning":"go to the right"}"#,
+        r#"{"action":"right"}"#,
+    ];
+    let cases: String = answers
+        .iter()
+        .zip(0..)
+        .map(|(answer, turn)| format!("*'\"turn\":{turn},'*) echo '{answer}';; "))
+        .collect();
+    let script = format!("tee {} | while read line; do case $line in {cases}esac; done", log.in_message());
+    let mut board = Board::of(&script);
+    let agent = std::mem::replace(&mut board.agent, Process::new("true", ProcessConfig::default()).unwrap());
+    board.agent = agent.with_max_output_tokens(Some(10));
+    let right = || Choice::of(Action::Right);
+    let none = Choice::nothing(Validity::Truncated);
+    for expect in [right(), none, right(), right()] {
+        assert_eq!(board.decide(), Ok(expect));
+    }
+    let replies: Vec<_> = board
+        .journal
+        .events()
+        .iter()
+        .filter_map(|event| match event {
+            Event::Reply(reply) => Some((reply.class, reply.usage.output_tokens, reply.reasoning.clone())),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(
+        replies,
+        [
+            (ReplyClass::Strict, Some(10), None),
+            (ReplyClass::Truncated, Some(11), None),
+            (ReplyClass::Strict, None, Some("go to the right".to_owned())),
+        ]
+    );
+    assert_eq!(heard(&log)[0]["max_output_tokens"], 10);
 }

@@ -46,6 +46,7 @@ pub(super) fn with_details(
         runs: 2,
         max_steps: 30,
         commit: Commitment::ONE,
+        max_output_tokens: None,
         track: None,
         series: 1,
         adaptive: None,
@@ -133,6 +134,7 @@ fn invariants_of_any_episode() {
             seed,
             max_steps: 60,
             commit: Commitment::ONE,
+            max_output_tokens: None,
             track: None,
             series: None,
         };

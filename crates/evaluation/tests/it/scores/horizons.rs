@@ -46,7 +46,7 @@ fn the_horizon_is_where_half_is_won() {
     for games in Foresight::ALL {
         let row = row(&study, games);
         assert_eq!(row.player.label(), "p (json)", "commitments are no players of their own");
-        assert!(row.horizon.is_some_and(|horizon| (4.0..6.2).contains(&horizon.value)), "{row:?}");
+        assert!(row.horizon.horizon.is_some_and(|horizon| (4.0..6.2).contains(&horizon.value)), "{row:?}");
         let episodes: Vec<(&str, u64)> =
             row.rates.iter().map(|rate| (rate.commit.as_str(), rate.episodes)).collect();
         let each = if games == Foresight::All { 160 } else { 80 };
@@ -63,17 +63,20 @@ fn nobody_commits_to_more_than_a_win_takes() {
     let study = study("p", &[("10", 9), ("all", 5)]);
     let row = row(&study, Foresight::All);
     assert_eq!(row.rates.iter().map(|rate| rate.ticks).collect::<Vec<_>>(), [10.0, 40.0]);
-    assert!(row.horizon.is_some_and(|horizon| (30.0..50.0).contains(&horizon.value)), "{row:?}");
+    assert!(row.horizon.horizon.is_some_and(|horizon| (30.0..50.0).contains(&horizon.value)), "{row:?}");
 }
 
 #[test]
 fn bounds_are_told_as_bounds() {
     let never = study("p", &[("1", 0), ("20", 0)]);
     let found = row(&never, Foresight::Exact);
-    assert_eq!((found.told_value(), found.told_interval()), ("≤ 1".to_owned(), "≤ 1".to_owned()));
+    assert_eq!(
+        (found.horizon.told_value(), found.horizon.told_interval()),
+        ("≤ 1".to_owned(), "≤ 1".to_owned())
+    );
     assert_eq!(found.title(), "p (json), deterministic games");
     let always = study("p", &[("1", 10), ("20", 10)]);
-    assert_eq!(row(&always, Foresight::All).told_value(), "≥ 80");
+    assert_eq!(row(&always, Foresight::All).horizon.told_value(), "≥ 80");
 }
 
 #[test]

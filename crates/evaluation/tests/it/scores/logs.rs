@@ -67,6 +67,7 @@ pub(super) fn log(subject: &Subject, level: usize, actions: &[Action], max_steps
         seed: Seed::from_text("by hand"),
         max_steps,
         commit: Commitment::ONE,
+        max_output_tokens: None,
         track: None,
         series: None,
     };

@@ -7,6 +7,7 @@ mod horizons;
 mod logs;
 mod paper;
 mod study;
+mod thinking;
 
 use engine::Outcome;
 use evaluation::metrics::EpisodeMetrics;

@@ -41,7 +41,7 @@ impl RequestedDesigner {
                 "no designer specified: pass a language model with --model (`openai:ID`), or --designer mailbox:DIR"
             );
         };
-        if let Some(flag) = args.client.unused_without_model() {
+        if let Some(flag) = args.client.unused_without_model(false) {
             bail!("{flag} applies only to language models (--model); remove it for the designer `{name}`");
         }
         if args.client.timeout.is_some() {

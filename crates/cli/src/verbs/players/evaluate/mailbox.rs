@@ -11,7 +11,7 @@ use evaluation::player::Contestant;
 use evaluation::player::mailbox::{Mailbox, MailboxPlayer};
 use evaluation::prompt::{PromptSettings, Prompter};
 use evaluation::run::Task;
-use evaluation::{Entrant, Settings, Subject};
+use evaluation::{AnswerLimit, Entrant, Settings, Subject};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -37,7 +37,8 @@ impl RequestedMailbox {
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest = match subjects.first() {
             Some(subject) => {
-                Some(Prompter::within(subject, self.prompts.clone(), u64::MAX, args.commit)?.digest())
+                let prompter = Prompter::within(subject, self.prompts.clone(), u64::MAX, args.commit)?;
+                Some(prompter.with_answer_limit(answer_limit(args)).digest())
             }
             None => None,
         };
@@ -63,7 +64,7 @@ impl RequestedMailbox {
         subjects: &[Subject],
         console: &Console,
     ) -> Result<(PlayerOf, Arc<Mailbox>), Failure> {
-        let prompters = prompters(subjects, &self.prompts, settings.max_steps, args.commit)?;
+        let prompters = prompters(subjects, &self.prompts, settings, answer_limit(args))?;
         let mailbox = Arc::new(Mailbox::open(&self.folder, settings, args.resume, console.remarks())?);
         console.remark(format_args!(
             "prompts appear in {}; answer them with `{}`, or as `arcade docs mailbox` describes",
@@ -76,4 +77,9 @@ impl RequestedMailbox {
         };
         Ok((Box::new(move |task| Contestant::Agent(Box::new(player(task)))), mailbox))
     }
+}
+
+/// Returns the limit on each answer's length, if the user set it.
+fn answer_limit(args: &Args) -> Option<AnswerLimit> {
+    args.model.client.max_output_tokens().map(AnswerLimit::Words)
 }

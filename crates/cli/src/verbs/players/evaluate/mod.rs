@@ -145,11 +145,12 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         semantics: SEMANTICS,
         suite: env!("CARGO_PKG_VERSION").to_owned(),
         snapshot: subjects.snapshot,
-        entrant: with_commitment(requested.entrant(args, &subjects.games)?, args.commit),
+        entrant: with_limits(requested.entrant(args, &subjects.games)?, args),
         seed: args.seed.clone(),
         runs: args.runs,
         max_steps: args.max_steps.unwrap_or(MAX_STEPS),
         commit: args.commit,
+        max_output_tokens: args.model.client.max_output_tokens(),
         track: None,
         series: 1,
         adaptive: None,
@@ -295,10 +296,11 @@ fn forecast(
     Ok(true)
 }
 
-/// Adds the commitment (the number of actions per decision) to the settings that distinguish the player from other
-/// players.
-fn with_commitment(mut entrant: Entrant, commit: Commitment) -> Entrant {
-    entrant.aids.extend(commit.aid());
+/// Adds the commitment (the number of actions per decision) and the maximum number of tokens per answer to the settings
+/// that distinguish the player from other players.
+fn with_limits(mut entrant: Entrant, args: &Args) -> Entrant {
+    entrant.aids.extend(args.commit.aid());
+    entrant.aids.extend(args.model.client.max_output_tokens().map(evaluation::budget_aid));
     entrant.aids.sort();
     entrant
 }

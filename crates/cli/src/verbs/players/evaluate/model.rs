@@ -8,7 +8,7 @@ use crate::flags::client::ClientArgs;
 use evaluation::client::{self, Batch, Decoding, Estimate, ModelOptions, ModelSettings, OnFailure, Usd};
 use evaluation::prompt::{Mode, PromptSettings, Prompter};
 use evaluation::run::Task;
-use evaluation::{Commitment, Entrant, Observed, SeriesPlace, Subject};
+use evaluation::{AnswerLimit, Commitment, Entrant, Observed, SeriesPlace, Settings, Subject};
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -33,16 +33,17 @@ pub(crate) struct ModelArgs {
 /// The games' prompters, by game ID.
 type Prompters = BTreeMap<String, Arc<Prompter>>;
 
-/// Creates the prompters for episodes of up to `max_steps` actions.
+/// Creates the prompters for an evaluation. The prompts state the limit on each answer's length, if there is one.
 pub(super) fn prompters(
     subjects: &[Subject],
-    settings: &PromptSettings,
-    max_steps: u64,
-    commit: Commitment,
+    prompts: &PromptSettings,
+    settings: &Settings,
+    limit: Option<AnswerLimit>,
 ) -> Result<Prompters, Failure> {
+    let Settings { max_steps, commit, .. } = *settings;
     let prompter = |subject: &Subject| {
-        let prompter = Prompter::within(subject, settings.clone(), max_steps, commit)?;
-        Ok((subject.id.clone(), Arc::new(prompter)))
+        let prompter = Prompter::within(subject, prompts.clone(), max_steps, commit)?;
+        Ok((subject.id.clone(), Arc::new(prompter.with_answer_limit(limit))))
     };
     subjects.iter().map(prompter).collect()
 }
@@ -122,22 +123,27 @@ impl RequestedModel {
     }
 
     fn prompter(&self, subject: &Subject, max_steps: u64, commit: Commitment) -> Result<Prompter, Failure> {
-        Prompter::within(subject, self.prompts.clone(), max_steps, commit).map_err(Failure::from)
+        let prompter = Prompter::within(subject, self.prompts.clone(), max_steps, commit)?;
+        Ok(prompter.with_answer_limit(self.answer_limit()))
+    }
+
+    /// Returns the limit on each answer's length, if the user set it.
+    fn answer_limit(&self) -> Option<AnswerLimit> {
+        self.options.decoding.max_output_tokens.map(AnswerLimit::Tokens)
     }
 
     /// Connects without sending a request, so that a missing key is reported before anything is written.
     pub(crate) fn connect(
         &self,
         subjects: &[Subject],
-        max_steps: u64,
-        commit: Commitment,
+        settings: &Settings,
         console: &Console,
     ) -> Result<ConnectedModel, Failure> {
         let on_failure = Some(OnFailure(console.remarks()));
         let connection = client::connect(&ModelOptions { on_failure, ..self.options.clone() })?;
         Ok(ConnectedModel {
             model: Arc::from(connection.model),
-            prompters: prompters(subjects, &self.prompts, max_steps, commit)?,
+            prompters: prompters(subjects, &self.prompts, settings, self.answer_limit())?,
             decoding: connection.settings.decoding,
             reasks: self.reasks,
             is_priced: connection.price.is_some(),

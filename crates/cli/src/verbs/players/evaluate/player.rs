@@ -96,7 +96,7 @@ impl RequestedPlayer {
     /// reason, and the games that the player can play.
     pub(super) fn check(&self, settings: &Settings, subjects: &[Subject]) -> Result<(), Failure> {
         let RequestedPlayer::Prompted(player, prompts) = self else { return Ok(()) };
-        let prompters = model::prompters(subjects, prompts, settings.max_steps, settings.commit)?;
+        let prompters = model::prompters(subjects, prompts, settings, None)?;
         let mut problems: BTreeMap<&str, String> = BTreeMap::new();
         let tasks = evaluation::run::tasks(settings, subjects);
         for task in tasks.iter().filter(|task| task.run == 0) {
@@ -147,13 +147,13 @@ impl RequestedPlayer {
                 Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Human(prompts) => {
-                let prompters = model::prompters(subjects, prompts, settings.max_steps, args.commit)?;
+                let prompters = model::prompters(subjects, prompts, settings, None)?;
                 let player = move |task: &Task<'_>| Human::new(prompters[&task.subject.id].clone());
                 Box::new(move |task| Contestant::Agent(Box::new(player(task))))
             }
             RequestedPlayer::Prompted(player, prompts) => {
                 let (player, prompters) =
-                    (player.clone(), model::prompters(subjects, prompts, settings.max_steps, args.commit)?);
+                    (player.clone(), model::prompters(subjects, prompts, settings, None)?);
                 let prompter = move |task: &Task<'_>| prompters[&task.subject.id].clone();
                 Box::new(move |task| {
                     Contestant::Agent(Box::new(Prompted::new(player.clone(), prompter(task))))
@@ -163,9 +163,10 @@ impl RequestedPlayer {
                 let (command, timeout) = (read.command().to_owned(), args.model.client.timeout());
                 let remark = console.remarks();
                 let track = args.model.prompt.track.unwrap_or(Track::Told);
+                let most = args.model.client.max_output_tokens();
                 let process = move || {
                     let process = process(&command, timeout).expect("the command line was parsed before");
-                    process.with_notices(remark.clone()).on_track(track)
+                    process.with_notices(remark.clone()).on_track(track).with_max_output_tokens(most)
                 };
                 Box::new(move |_| Contestant::Agent(Box::new(process())))
             }
@@ -174,7 +175,7 @@ impl RequestedPlayer {
                 return Ok(Connected { mailbox: Some(mailbox), ..contestant.into() });
             }
             RequestedPlayer::Model(model) => {
-                let model = Arc::new(model.connect(subjects, settings.max_steps, args.commit, console)?);
+                let model = Arc::new(model.connect(subjects, settings, console)?);
                 let connected = model.clone();
                 let contestant: PlayerOf = Box::new(move |task| connected.contestant(task));
                 return Ok(Connected { model: Some(model), ..contestant.into() });
@@ -220,8 +221,12 @@ pub(super) fn reject_unused_flags(args: &Args, requested: &RequestedPlayer) -> R
         };
     }
     let player = args.player.as_deref().unwrap_or_default();
-    if let Some(flag) = args.model.client.unused_without_model() {
-        bail!("{flag} applies only to language models (--model); remove it for the player `{player}`");
+    let is_limited = matches!(requested, RequestedPlayer::Mailbox(_) | RequestedPlayer::Process(_));
+    if let Some(flag) = args.model.client.unused_without_model(is_limited) {
+        let others = if flag == "--max-output-tokens" { ", mailboxes and programs (`cmd:`)" } else { "" };
+        bail!(
+            "{flag} applies only to language models (--model){others}; remove it for the player `{player}`"
+        );
     }
     if args.model.client.timeout.is_some() && !matches!(requested, RequestedPlayer::Process(_)) {
         bail!(

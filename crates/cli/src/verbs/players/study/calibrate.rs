@@ -103,6 +103,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         runs: args.runs,
         max_steps,
         commit: Commitment::ONE,
+        max_output_tokens: None,
         track: None,
         series: 1,
         adaptive: None,

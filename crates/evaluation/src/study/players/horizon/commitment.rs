@@ -1,16 +1,13 @@
 //! Players' horizons. A player's horizon is the commitment (the number of actions per decision) at which the player
 //! still wins half of its episodes.
 
+use super::{Effect, Horizon, by_player, by_setting};
 use crate::study::episodes::scores::Estimate;
 use crate::study::{Player, Study, StudyEpisode};
 use itertools::Itertools;
 use report::{Table, TableCell};
 use serde::Serialize;
-use statistics::{DoseTrials, half_point};
 use std::collections::BTreeMap;
-
-/// The number of bootstrap resamples for an interval.
-const RESAMPLES: usize = 1000;
 
 base::named_enum! {
     /// The kind of games on which a horizon is measured, according to what a player must foresee. A horizon is the
@@ -35,13 +32,11 @@ pub struct HorizonRow {
     pub games: Foresight,
     /// The win rates, sorted by ascending commitment (number of actions per decision).
     pub rates: Vec<CommitmentRate>,
-    /// The horizon in ticks, with its interval over games. It is the number of actions per decision at which half of
-    /// the episodes are won.
-    pub horizon: Option<Estimate>,
-    /// The lowest and the highest horizon that can be reported. The lowest is a quarter of the smallest effective
-    /// commitment (number of actions per decision), but at least one tick. The highest is four times the largest
-    /// effective commitment.
-    pub range: [f64; 2],
+    /// The horizon in ticks: the number of actions per decision at which half of the episodes are won. The lowest value
+    /// that can be reported is a quarter of the smallest effective commitment, but at least one tick. The highest is four
+    /// times the largest effective commitment.
+    #[serde(flatten)]
+    pub horizon: Horizon,
 }
 
 /// A player's win rate with one commitment (number of actions per decision).
@@ -59,20 +54,6 @@ pub struct CommitmentRate {
 }
 
 impl HorizonRow {
-    /// Formats the horizon (a number of ticks), such as `12`, or `≥ 80` if only a bound is known. An unknown horizon is
-    /// formatted as `–`.
-    pub fn told_value(&self) -> String {
-        self.horizon.map_or("–".to_owned(), |horizon| self.bounded(horizon.value))
-    }
-
-    /// Formats the interval of the horizon (a number of ticks), or a single bound if both ends are equal.
-    pub fn told_interval(&self) -> String {
-        self.horizon.map_or(String::new(), |found| {
-            let [low, high] = [found.low, found.high].map(|end| self.bounded(end));
-            if low == high { low } else { format!("{low} to {high}") }
-        })
-    }
-
     /// Returns the player's label and the kind of games. The kind is omitted for [`Foresight::All`].
     pub fn title(&self) -> String {
         match self.games {
@@ -80,32 +61,12 @@ impl HorizonRow {
             games => format!("{}, {} games", self.player.label(), games.name()),
         }
     }
-
-    /// Formats a number of ticks, preceded by `≤` or `≥` at an end of the range.
-    fn bounded(&self, ticks: f64) -> String {
-        let [least, most] = self.range;
-        let sign = if ticks <= least {
-            "≤ "
-        } else if ticks >= most {
-            "≥ "
-        } else {
-            ""
-        };
-        let digits = usize::from(ticks < 10.0 && sign.is_empty());
-        format!("{sign}{ticks:.digits$}")
-    }
 }
 
 /// Returns the rows of players with results for several commitments (numbers of actions per decision), one per kind of
 /// game. Rows are sorted by kind, and then by descending horizon.
 pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
-    let mut players: BTreeMap<Player, Vec<&StudyEpisode>> = BTreeMap::new();
-    for episode in study.episodes.iter().filter(|episode| episode.metrics.counts()) {
-        let mut player = study.players[episode.player].clone();
-        let commit = episode.metrics.commit.aid();
-        player.aids.retain(|aid| Some(aid) != commit.as_ref());
-        players.entry(player).or_default().push(episode);
-    }
+    let players = by_player(study, |aid, episode| episode.metrics.commit.aid().as_deref() == Some(aid));
     let shortest = shortest_wins(study);
     let is_of = |episode: &StudyEpisode, games: Foresight| match games {
         Foresight::Exact => study.games[episode.game].is_stochastic == Some(false),
@@ -125,7 +86,7 @@ pub(in crate::study) fn horizons(study: &Study) -> Vec<HorizonRow> {
         }
     }
     rows.sort_by(|a, b| {
-        let far = |row: &HorizonRow| row.horizon.map_or(-1.0, |horizon| horizon.value);
+        let far = |row: &HorizonRow| row.horizon.horizon.map_or(-1.0, |horizon| horizon.value);
         a.games.cmp(&b.games).then(far(b).total_cmp(&far(a)))
     });
     rows
@@ -157,38 +118,19 @@ fn row(
         let known = shortest.get(&(episode.game, metrics.level)).copied().unwrap_or(u64::MAX);
         metrics.commit.due(metrics.max_steps.min(known)).max(1) as f64
     };
-    let mut trials: BTreeMap<usize, BTreeMap<usize, Vec<DoseTrials>>> = BTreeMap::new();
-    for episode in episodes {
-        let level = trials.entry(episode.game).or_default().entry(episode.metrics.level).or_default();
-        level.push(DoseTrials {
-            dose: ticks(episode),
-            won: f64::from(u8::from(episode.metrics.won())),
-            of: 1.0,
+    let rates =
+        by_setting(episodes, |episode| episode.metrics.commit).into_iter().map(|(commit, episodes)| {
+            CommitmentRate {
+                commit: commit.to_string(),
+                ticks: episodes.iter().map(|episode| ticks(episode)).sum::<f64>() / episodes.len() as f64,
+                rate: Estimate::rate(&episodes),
+                episodes: episodes.len() as u64,
+            }
         });
-    }
-    let groups: Vec<Vec<Vec<DoseTrials>>> =
-        trials.into_values().map(|levels| levels.into_values().collect()).collect();
-    let seed = blake3::hash(format!("horizon {} {}", player.label(), games.name()).as_bytes());
-    let found = half_point(&groups, RESAMPLES, crate::study::LEVEL, *seed.as_bytes());
-    let doses = || groups.iter().flatten().flatten().map(|trials| trials.dose);
-    // No player can decide more often than once per action.
-    let range = [(doses().fold(f64::INFINITY, f64::min) / 4.0).max(1.0), doses().fold(0.0, f64::max) * 4.0];
-    let by_commitment = episodes.iter().copied().into_group_map_by(|episode| episode.metrics.commit);
-    let rates = by_commitment.into_iter().sorted_by_key(|(commit, _)| *commit).map(|(commit, episodes)| {
-        CommitmentRate {
-            commit: commit.to_string(),
-            ticks: episodes.iter().map(|episode| ticks(episode)).sum::<f64>() / episodes.len() as f64,
-            rate: Estimate::rate(&episodes),
-            episodes: episodes.len() as u64,
-        }
-    });
-    let told = |ticks: f64| ticks.max(range[0]);
-    let horizon = found.map(|found| Estimate {
-        value: told(found.dose),
-        low: told(found.interval.low),
-        high: told(found.interval.high),
-    });
-    HorizonRow { player, games, rates: rates.collect(), horizon, range }
+    let rates = rates.collect();
+    let name = format!("horizon {} {}", player.label(), games.name());
+    let horizon = Horizon::of(&name, episodes, Effect::Harms, ticks);
+    HorizonRow { player, games, rates, horizon }
 }
 
 /// Returns the table of horizons, or `None` if no player has results for several numbers of actions per decision.
@@ -208,8 +150,8 @@ pub(in crate::study) fn table(study: &Study) -> Option<Table> {
         &[
             ("player", &|row| TableCell::text(row.player.label())),
             ("games", &|row| TableCell::text(row.games.name())),
-            ("horizon", &|row| TableCell::figure(row.horizon.map(|_| row.told_value()))),
-            ("interval", &|row| TableCell::figure(row.horizon.map(|_| row.told_interval()))),
+            ("horizon", &|row| TableCell::figure(row.horizon.horizon.map(|_| row.horizon.told_value()))),
+            ("interval", &|row| TableCell::figure(row.horizon.horizon.map(|_| row.horizon.told_interval()))),
             ("won by commitment", &|row| {
                 let one = |found: &CommitmentRate| {
                     let rate =
