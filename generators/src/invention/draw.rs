@@ -128,7 +128,7 @@ impl Census {
         others: &[&'static Mechanic],
         sampler: &mut Sampler,
     ) -> Option<&'static Mechanic> {
-        choose_one(is_ending, others, &self.weights().of(), sampler)
+        choose_one(is_ending, others, self.weights().of(), sampler)
     }
 
     /// Returns the weights of all mechanics and endings in a draw. A weight decreases with the square of the number of
