@@ -154,7 +154,6 @@ fn settings_of(
     runs: u64,
     max_steps: u64,
     commit: &str,
-    max_output_tokens: None,
     track: Option<Track>,
 ) -> PyResult<Settings> {
     let entrant = Entrant { name: "python".to_owned(), mode: None, aids: Vec::new(), details: json!({}) };
@@ -237,7 +236,6 @@ impl Series {
         seed: &str,
         max_steps: u64,
         commit: &str,
-        max_output_tokens: None,
         track: Option<&str>,
         prompts: Option<&str>,
         reasks: u32,
@@ -437,7 +435,6 @@ pub(crate) fn replay_log(
     seed: Option<&str>,
     max_steps: Option<u64>,
     commit: &str,
-    max_output_tokens: None,
     track: Option<&str>,
 ) -> PyResult<String> {
     let (subject, log) = (subject(game, id, &levels)?, events(log)?);
