@@ -23,8 +23,9 @@ fn episodes(name: &str, horizon: &dyn Fn(u8) -> f64, budget: u32) -> (Player, Ve
         (0..12).flat_map(|game| (0..2).flat_map(move |level| (0..8).map(move |run| (game, level, run))))
     {
         // The odds of a loss are those of the horizon, times e, 1 or 1/e.
-        let effect = [2.718, 1.0, 0.368][game % 3];
-        let odds = effect * (horizon(level as u8 + 1) / f64::from(budget)).powi(2);
+        let effect = [2.7, 1.0, 0.37][game % 3];
+        let ratio = horizon(level as u8 + 1) / f64::from(budget);
+        let odds = effect * ratio * ratio;
         let is_won = sampler.unit() < 1.0 / (1.0 + odds);
         let outcome = if is_won { Won } else { Lost };
         let metrics = episode(&format!("game{game}"), level, run, outcome, 0.0, 40);
