@@ -245,10 +245,9 @@ impl Prompter {
         &self.static_part
     }
 
-    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings, the number of actions per decision
-    /// and the limit on answers. If
-    /// two runs of the same game have the same digest, [`engine::SEMANTICS`] and step limit, they have the same
-    /// prompts.
+    /// Returns a BLAKE3 digest of [`VERSION`], all templates, the settings, the number of actions per decision and the
+    /// limit on answers. If two runs of the same game have the same digest, [`engine::SEMANTICS`] and step limit, they
+    /// have the same prompts.
     pub fn digest(&self) -> Digest {
         let settings = serde_json::to_string(&self.settings).expect("plain data");
         let mut hasher = blake3::Hasher::new_derive_key("infinite-arcade 1 prompts");
