@@ -286,18 +286,18 @@ impl Reader<'_> {
         if text == "the edge of the board" {
             return Some(None);
         }
-        let mut types = Vec::new();
+        let (mut types, mut are_forms) = (Vec::new(), false);
         for item in items(text) {
-            let item = item.strip_prefix("you as ").unwrap_or(item);
             if item == "you" {
                 types.extend(self.case.analysis.avatars().iter().map(|avatar| avatar.stype));
                 continue;
             }
-            let name = ["the ", "any ", "no "]
-                .into_iter()
-                .find_map(|start| item.strip_prefix(start))
-                .unwrap_or(item);
-            types.extend(self.family(self.game().sprite_type(name)?));
+            // Sentences name each form of the player that is meant, so the name of a parent type means no other form.
+            let form = item.strip_prefix("you as ");
+            let named = ["the ", "any ", "no "].into_iter().find_map(|start| item.strip_prefix(start));
+            are_forms = form.is_some() || are_forms && named.is_none();
+            let stype = self.game().sprite_type(form.or(named).unwrap_or(item))?;
+            types.extend(if are_forms { vec![stype] } else { self.family(stype) });
         }
         Some(Some(types))
     }

@@ -216,3 +216,41 @@ fn false_claims_about_losses_and_edges_are_refuted() {
         assert!(lie.refuted_by(&case, play).is_some(), "{}", lie.kind());
     }
 }
+
+/// `newt` is a form of the player beside `palenewt` and `rednewt`, because the bird becomes one. A red newt may enter
+/// the reed, although the sentence says that a pale newt and a `newt` cannot.
+#[test]
+fn a_form_named_after_a_parent_type_means_no_other_form() {
+    let source = "\
+BasicGame
+    SpriteSet
+        floor > Immovable
+        redpot > Immovable
+        reed > Immovable
+        newt > MovingAvatar
+            palenewt >
+            rednewt >
+        bird > BirdAvatar
+    LevelMapping
+        r > floor redpot
+        R > floor reed
+        p > floor palenewt
+        b > floor bird
+    InteractionSet
+        palenewt reed > stepBack
+        palenewt redpot > transformTo stype=rednewt
+        bird wall > transformTo stype=newt
+    TerminationSet
+        Timeout limit=100 win=True
+";
+    let case = Case::load(source, "Rr\nwp\n", Policy::Reference).expect("it loads");
+    let [palenewt, newt, reed] =
+        ["palenewt", "newt", "reed"].map(|name| case.game.sprite_type(name).expect("a type"));
+    let (claims, _) = read::claims(&case);
+    let barrier = claims.iter().find(|claim| claim.text.starts_with("You as palenewt or newt cannot enter"));
+    let barrier = barrier.expect("the description names both forms");
+    let Fact::CannotEnter(first, second) = &barrier.fact else { panic!("{}", barrier.fact.kind()) };
+    assert_eq!((first, second), (&vec![palenewt, newt], &Some(vec![reed])));
+    let enters = Play::of(&case, Seed::from_text("enters"), &[Action::Up, Action::Left, Action::Left]);
+    assert!(faults(&case, &claims, &[enters]).is_empty());
+}
