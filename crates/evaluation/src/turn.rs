@@ -33,7 +33,7 @@ pub struct Turn<'a> {
     /// The level's position in a series of levels played in one conversation, or `None` for a level played
     /// alone.
     pub series: Option<SeriesView<'a>>,
-    /// The lines that ended the game, or `None` if the game goes on or if the lines are unknown.
+    /// The rules that ended the game, as far as they are known. `None` while the game goes on.
     pub cause: Option<EndCause>,
 }
 

@@ -161,6 +161,8 @@ pub enum Fact {
     NeverAt(SpriteType, usize),
     /// Between ticks, sprites of each type are only in the given cells. The list is indexed by type and cell.
     Within(Vec<Vec<bool>>),
+    /// The score never exceeds the given number.
+    ScoreAtMost(i64),
     /// Avatars visit at most the given number of cells on the board.
     CellsVisited(usize),
     /// Sprites of the first types never move onto sprites of the second types, or never move off the board if
@@ -212,6 +214,7 @@ impl Fact {
             Fact::GoalNeverHolds(_) => "a termination never holds",
             Fact::NeverAt(..) => "cannot reach a cell",
             Fact::Within(_) => "every type within its reach",
+            Fact::ScoreAtMost(_) => "so many points at most",
             Fact::CellsVisited(_) => "so many cells at most",
             Fact::CannotEnter(..) => "cannot enter",
             Fact::Unseen(_) => "cannot be seen",

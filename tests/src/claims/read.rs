@@ -1,6 +1,7 @@
 //! Claims extracted from the texts that users see, and from the proofs in the analysis.
 
 use super::{Case, Claim, Ending, Fact, Policy, Provided, Tie, Unless, When};
+use base::Seed;
 use engine::analysis::{Cause, Chain, Missing, Obstacle, Spatiality, Steering, Unreachable};
 use engine::describe::{self, Guide, plural};
 use engine::{Action, Diagnostic, Game, SpriteType};
@@ -364,6 +365,10 @@ impl Reader<'_> {
             if let Some(cells) = number.and_then(|number| number.parse().ok()) {
                 self.claim(line.as_str(), Fact::CellsVisited(cells));
             }
+        }
+        let start = self.game().start(level, Seed::from_text("start"));
+        if let Some(most) = analysis.most_points(&start) {
+            self.claim("highest score", Fact::ScoreAtMost(most));
         }
         for (can, win) in [(reach.can_win(), true), (reach.can_lose(), false)] {
             if !can {

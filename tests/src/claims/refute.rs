@@ -85,6 +85,9 @@ impl Fact {
                 let (holder, resource) = (name(stype(record)), name(*resource));
                 Some(format!("{holder} holds {amount} {resource} in tick {at}, not at most {most}"))
             }),
+            Fact::ScoreAtMost(most) => play.frames.iter().enumerate().find_map(|(at, frame)| {
+                (frame.score > *most as f64).then(|| format!("the score is {} in tick {at}", frame.score))
+            }),
             Fact::Absent(absent) => play.frames.iter().enumerate().find_map(|(at, frame)| {
                 let there = frame.sprites.iter().any(|record| stype(record) == *absent);
                 there.then(|| format!("{} is present in tick {at}", name(*absent)))

@@ -71,7 +71,7 @@ fn no_claim_is_false() {
 }
 
 /// The kinds of claims that must occur in every run.
-const KINDS: [&str; 12] = [
+const KINDS: [&str; 13] = [
     "a rule never fires",
     "a termination never holds",
     "cannot enter",
@@ -82,6 +82,7 @@ const KINDS: [&str; 12] = [
     "nothing can ever end it",
     "nothing happens unless you act",
     "over in the first tick",
+    "so many points at most",
     "the game cannot be won",
     "the level cannot be won",
 ];
@@ -172,6 +173,7 @@ fn false_claims_are_refuted() {
         (&won, Fact::GoalNeverHolds(goal)),
         (&won, Fact::NeverAt(hero, cell(1, 0))),
         (&won, Fact::Within(types.iter().map(|&stype| nowhere(stype)).collect())),
+        (&won, Fact::ScoreAtMost(0)),
         (&won, Fact::CellsVisited(2)),
         (&down, Fact::CannotEnter(vec![hero], Some(vec![moss]))),
         (&won, Fact::Unseen(gem)),

@@ -4,6 +4,7 @@
 //! model, the seed, or the path to a witness (a recorded winning episode). The process runs in its own empty folder,
 //! with a reduced environment.
 
+mod answer;
 mod child;
 #[cfg(unix)]
 mod guard;
@@ -25,20 +26,17 @@ use crate::legend::{Legend, LegendOptions};
 use crate::log::{Event, Journal, Reply, ReplyClass};
 use crate::mask::Mask;
 use crate::player::{Agent, Choice, Halt, Said, Validity};
-use crate::predictions::{Predicted, TouchFact};
 use crate::prompt::limited;
 use crate::run::Task;
 use crate::run::clock::Stopwatch;
 use crate::thought::AnswerLimit;
 use crate::track::Track;
 use crate::turn::{Turn, is_of_use};
+use answer::{Addressed, Thought, read, read_predictions};
 use child::{LineProcess, NoLine};
 use engine::describe::Guide;
 use engine::{Action, Analysis, Observation};
-use itertools::Itertools;
 use message::{Message, Past, Seen, Tick};
-use serde::Deserialize;
-use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -208,9 +206,8 @@ impl Process {
         journal: &mut Journal,
         turn: &Turn<'_>,
         attempt: u32,
-        answer: &[u8],
+        Thought { output_tokens, reasoning }: Thought,
     ) -> Result<bool, Halt> {
-        let Thought { output_tokens, reasoning } = serde_json::from_slice(answer).unwrap_or_default();
         let id = (turn.number, attempt);
         // An interrupted run may have recorded the answer that the process has now given again.
         let recorded = journal.pending().iter().find_map(|event| match event {
@@ -341,8 +338,8 @@ impl Agent for Process {
                 Err(no_line) => return Err(self.failed(no_line, turn, attempt)),
             };
             match read(&answer, turn) {
-                Ok(actions) => {
-                    let is_excess = self.record_thought(journal, turn, attempt, &answer)?;
+                Ok((actions, thought)) => {
+                    let is_excess = self.record_thought(journal, turn, attempt, thought)?;
                     let excess = || Choice::nothing(Validity::Truncated);
                     return Ok(if is_excess { excess() } else { Choice::plan(actions) });
                 }
@@ -463,29 +460,6 @@ impl Shown {
     }
 }
 
-/// An answer with an action, or with a plan's actions.
-#[derive(Deserialize)]
-struct Answer {
-    action: Option<String>,
-    actions: Option<Vec<String>>,
-}
-
-/// The thought that an answer may report.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct Thought {
-    /// The number of output tokens, including reasoning.
-    output_tokens: Option<u64>,
-    /// The reasoning, whose words count if there is no number of tokens.
-    reasoning: Option<String>,
-}
-
-/// The turn number that an answer may state.
-#[derive(Deserialize)]
-struct Addressed {
-    turn: u64,
-}
-
 /// Returns the next answer to the given turn.
 ///
 /// Answers to an earlier turn are skipped, so an agent that states its turns cannot get out of sync. Skipped
@@ -517,65 +491,6 @@ fn receive(
             return Err(NoLine::Stale);
         }
     }
-}
-
-/// Returns an answer's actions, up to the number due, or a message stating the problem with the answer.
-fn read(answer: &[u8], turn: &Turn<'_>) -> Result<Vec<Action>, String> {
-    if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
-        && addressed > turn.number
-    {
-        let number = turn.number;
-        return Err(format!("this answers turn {addressed}, but the current turn is {number}"));
-    }
-    let names = |actions: &[Action]| actions.iter().map(ToString::to_string).join(", ");
-    let expected = |problem: &str| match turn.commit.is_one() {
-        true => format!("{problem}; answer with {{\"action\": …}}, using one of {}", names(turn.actions)),
-        false => format!("{problem}; answer with {{\"actions\": […]}}, using up to {} actions", turn.due()),
-    };
-    let Answer { action, actions } =
-        serde_json::from_slice(answer).map_err(|error| expected(&error.to_string()))?;
-    match (turn.commit.is_one(), action, actions) {
-        (true, Some(action), _) => {
-            let known = turn.actions.iter().find(|known| known.to_string() == action);
-            let unavailable =
-                || format!("the action `{action}` is not available now; available: {}", names(turn.actions));
-            Ok(vec![*known.ok_or_else(unavailable)?])
-        }
-        (true, None, _) => Err(expected("missing field `action`")),
-        // At this point, it is unknown which actions will be available later.
-        (false, _, Some(actions)) => {
-            let known = |action: String| {
-                let found = Action::ALL.into_iter().find(|known| known.to_string() == action);
-                found.ok_or_else(|| {
-                    format!("`{action}` is not an action; the actions are {}", names(&Action::ALL))
-                })
-            };
-            actions.into_iter().take(turn.due() as usize).map(known).collect()
-        }
-        (false, _, None) => Err(expected("missing field `actions`")),
-    }
-}
-
-/// Returns an answer's predictions, or a message stating the problem with the answer. `names` maps the names
-/// sent to the process to the game's own names.
-fn read_predictions(answer: &[u8], names: &BTreeMap<String, String>) -> Result<Predicted, String> {
-    const EXPECTED: &str = "answer with {\"kills\": […], \"stops\": […], \"goes\": […], \"scores\": […]}, \
-                            using kinds from the question";
-    let answer: BTreeMap<String, Value> =
-        serde_json::from_slice(answer).map_err(|error| format!("{error}; {EXPECTED}"))?;
-    let own = |name: String| {
-        names
-            .get(&name)
-            .cloned()
-            .ok_or_else(|| format!("`{name}` is not a kind from the question; {EXPECTED}"))
-    };
-    let facts = TouchFact::ALL.into_iter().map(|fact| {
-        let missing = || format!("the list `{}` is missing; {EXPECTED}", fact.name());
-        let named = answer.get(fact.name()).cloned().ok_or_else(missing)?;
-        let named: Vec<String> = serde_json::from_value(named).map_err(|_| missing())?;
-        Ok((fact, named.into_iter().map(own).collect::<Result<_, String>>()?))
-    });
-    facts.collect()
 }
 
 /// Records an invalid answer, unless an interrupted run has already recorded it.

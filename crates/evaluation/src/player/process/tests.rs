@@ -454,3 +454,19 @@ fn programs_report_their_thought() {
     );
     assert_eq!(heard(&log)[0]["max_output_tokens"], 10);
 }
+
+/// A count that is not a number does not make an answer unlimited.
+#[test]
+fn a_wrong_count_is_a_wrong_answer() {
+    let wrong = r#"{"action":"right","output_tokens":"9"}"#;
+    let right = r#"{"action":"right","output_tokens":9}"#;
+    let mut board =
+        Board::of(&format!("read hello; read turn; echo '{wrong}'; read invalid; echo '{right}'; read turn"));
+    assert_eq!(board.decide(), Ok(Choice::of(Action::Right)));
+    let replies = board.journal.events().iter().filter_map(|event| match event {
+        Event::Reply(reply) => Some((reply.class, reply.usage.output_tokens)),
+        _ => None,
+    });
+    let expect = [(ReplyClass::Invalid, None), (ReplyClass::Strict, Some(9))];
+    assert_eq!(replies.collect::<Vec<_>>(), expect);
+}
