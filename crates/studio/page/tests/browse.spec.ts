@@ -20,7 +20,7 @@ test('a release is browsed, filtered, verified and compared', async ({ page, stu
   await page.getByRole('button', { name: 'Verify' }).click();
   await expect(page.getByText('Every digest agrees.')).toBeVisible();
   await expect(page.getByRole('list', { name: 'Files checked' }).getByRole('listitem').first()).toBeVisible();
-  await expect(page.getByText(/first of its line|next one names/).first()).toBeVisible();
+  await expect(page.getByText(/first release of its chain|successor states/).first()).toBeVisible();
   await expect(page.getByText(/^Beside/)).toBeVisible();
 });
 
