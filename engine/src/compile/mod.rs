@@ -82,7 +82,7 @@ fn compile_with(
         if policy == Policy::Reference { aliases(description, &mut problems) } else { Aliases::default() };
     let (mapping, unusable) = mapping(description, names, &aliases, &mut problems);
     report_missing_images(&types, &mapping, &mut problems);
-    let mut program = interactions::program(description, names, setting, &mut problems);
+    let program = interactions::program(description, names, setting, &mut problems);
     let (terminations, can_end) = terminations::terminations(description, names, setting, &mut problems);
     let obstacles = header.obstacles.iter().flatten();
     let obstacles = obstacles.filter_map(|name| names.resolve(name, &mut problems)).collect();
@@ -91,9 +91,6 @@ fn compile_with(
     }
     if policy == Policy::Strict && problems.len() < MAX_PROBLEMS {
         misspelt_declarations(description, &mut problems);
-    }
-    if fate.dies_at_edge {
-        program.edge.push((SpriteType::NONE, 0));
     }
     if !Diagnostics::has_errors(&problems) {
         report_sprites_that_never_exist(description, &types, &mapping, &program, &mut problems);
@@ -153,7 +150,7 @@ fn compile_with(
         first_differs: types.iter().any(|info| info.first_differs),
         remembering: program.remembering(&types),
         effects: program.effects,
-        undeclared_at_edge: program.edge.iter().any(|&(stype, _)| stype == SpriteType::NONE),
+        undeclared_at_edge: fate.dies_at_edge,
         edge: program.edge,
         passes: program.passes,
         timed: program.timed,

@@ -310,8 +310,8 @@ pub(crate) struct Rules {
     pub(crate) effects: Vec<EffectInfo>,
     /// The passes at the edge of the screen, each with its type and effect, with repetitions expanded.
     pub(crate) edge: Vec<(SpriteType, u16)>,
-    /// `true` if one of the `edge` passes refers to an undeclared type. The reference then crashes in the
-    /// first tick.
+    /// `true` if an edge pass of the game refers to an undeclared type. The reference then crashes in the first
+    /// tick, after the passes in `edge`.
     pub(crate) undeclared_at_edge: bool,
     pub(crate) passes: Vec<Pass>,
     pub(crate) timed: Vec<Timed>,

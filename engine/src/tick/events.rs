@@ -15,13 +15,16 @@ impl<'a, S: Scheduler> Step<'a, S> {
                 return;
             }
         }
-        if self.world.off() != 0 || self.rules.undeclared_at_edge {
+        if self.world.off() != 0 {
             for &(stype, effect) in &self.rules.edge {
                 self.edge_pass(stype, effect, watch);
                 if self.stopped.is_some() {
                     return;
                 }
             }
+        }
+        if self.rules.undeclared_at_edge {
+            return self.stop(Limit::NoType);
         }
         let rules = self.rules;
         let (mut from, mut is_tidy) = (0, false);
@@ -152,8 +155,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
     /// the group being visited ends the visit with a message.
     fn edge_pass(&mut self, stype: SpriteType, effect: u16, watch: &mut (impl Watch + ?Sized)) {
         let rules = self.rules;
-        let Some(family) = rules.types.get(stype.index()) else { return self.stop(Limit::NoType) };
-        for &stype in &family.tree {
+        for &stype in &rules.types[stype.index()].tree {
             if self.world.group(stype).off == 0 {
                 continue;
             }

@@ -63,8 +63,7 @@ impl Encounter {
 pub(crate) fn encounters(rules: &Rules) -> Vec<Encounter> {
     let mut seen: Vec<(SpriteType, Option<SpriteType>, u16, u16)> = Vec::new();
     // No sprite can be shielded against the edge.
-    let edge = rules.edge.iter().filter(|(stype, _)| *stype != SpriteType::NONE);
-    let edge = edge.map(|&(stype, effect)| (stype, None, effect, u16::MAX));
+    let edge = rules.edge.iter().map(|&(stype, effect)| (stype, None, effect, u16::MAX));
     let pairs = rules.passes.iter().map(|pass| (pass.first, Some(pass.second), pass.effect, pass.keyword));
     for key in edge.chain(pairs) {
         // Duplicate passes and edge effects are close together.

@@ -29,9 +29,8 @@ impl Program {
         let pairs = self.passes.iter().map(|pass| (pass.first, pass.effect));
         let timed = self.timed.iter().map(|timed| (timed.target.unwrap_or(SpriteType::NONE), timed.effect));
         let executed = pairs.chain(self.edge.iter().copied()).chain(timed);
-        // An edge pass of an undeclared type stops the game before any effect runs.
         let given = executed.filter_map(|(one, effect)| {
-            let summary = &self.effects.get(usize::from(effect))?.summary;
+            let summary = &self.effects[usize::from(effect)].summary;
             let info = types.get(summary.gives_speed(one)?.index())?;
             Some((info, summary.speed == Some(SpeedEffect::Force)))
         });
@@ -53,7 +52,7 @@ impl Program {
         let others = |pass: &&Pass| collects(pass.effect) && types[pass.first.index()].tree.iter().any(other);
         let mut paired = vec![false; self.effects.len()];
         self.passes.iter().for_each(|pass| paired[usize::from(pass.effect)] = true);
-        let paired = |effect: &u16| paired.get(usize::from(*effect)) == Some(&true);
+        let paired = |effect: &u16| paired[usize::from(*effect)];
         let at_edge = self.edge.iter().map(|(_, effect)| *effect).filter(paired);
         let mut found: Vec<u16> =
             self.passes.iter().filter(others).map(|pass| pass.effect).chain(at_edge).collect();

@@ -1,6 +1,7 @@
 //! Tests of attainable goals, and of the amounts that they require.
 
 use super::*;
+use base::Seed;
 
 const SPRITES: &str = "gem > Immovable\nice > Immovable\nsnow > Immovable\nghost > Immovable\nkey > Resource limit=2\n\
                        safe > Door\nkiln > SpawnPoint stype=brick\nbrick > Passive\nhero > MovingAvatar";
@@ -79,4 +80,15 @@ fn distances_from_goals() {
     game.step(&mut state, engine::Action::Right);
     game.step(&mut state, engine::Action::Right);
     assert_eq!(missing(&state), [0, 3, 29]);
+}
+
+/// In reference mode, an undeclared sprite at the edge stops the game in the first tick. No effect belongs to that rule.
+#[test]
+fn a_game_with_an_undeclared_sprite_at_the_edge_has_a_highest_score() {
+    let source = "BasicGame\n  SpriteSet\n    hero > MovingAvatar\n  LevelMapping\n    A > hero\n  InteractionSet\n    \
+                  nope EOS > killSprite\n  TerminationSet\n    Timeout limit=9\n";
+    let game = Game::from_source_as_reference(source).unwrap();
+    let level = game.level("A").unwrap();
+    let start = game.start(&level, Seed::from_text("edge"));
+    assert_eq!(Analysis::of(&game).most_points(&start), Some(0));
 }
