@@ -113,7 +113,7 @@ pub enum SnapshotError {
     )]
     Unfinished(PathBuf),
     /// The manifest's format is newer than every format supported by this binary.
-    #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
+    #[error("snapshot format {found} is newer than this version of arcade supports ({known}): use a newer version")]
     Format {
         /// The format stated in the manifest.
         found: u64,
@@ -147,7 +147,7 @@ pub enum SnapshotError {
     /// A folder being searched for releases does not contain a release.
     #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains snapshots", .0.in_message())]
     NoRelease(PathBuf),
-    /// An archive is damaged so early that its manifest cannot be read.
+    /// An archive is damaged so close to its start that its manifest cannot be read.
     #[error("`{}` is not a valid archive: {message}", .path.in_message())]
     Archive {
         /// The path of the damaged archive.
@@ -216,7 +216,7 @@ mod tests {
         let newer = SnapshotError::Format { found: 7, known: 1 };
         assert_eq!(
             newer.to_string(),
-            "snapshot format 7 is newer than this arcade understands (1): use a newer arcade"
+            "snapshot format 7 is newer than this version of arcade supports (1): use a newer version"
         );
         let occupied = SnapshotError::Occupied("releases/new".into());
         assert_eq!(

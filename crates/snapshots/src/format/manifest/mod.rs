@@ -42,7 +42,7 @@ pub const SEALED_FORMAT: u32 = 3;
 pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file with the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
-/// The path of the header's leaf, through which the root covers the manifest's header.
+/// The path of the Merkle leaf for the manifest's header. The root covers the header by covering this leaf.
 pub const HEADER_LEAF: &str = "MANIFEST";
 /// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
@@ -448,7 +448,7 @@ pub(crate) mod tests {
     fn the_format_is_judged_first() {
         refuse(
             r#"{ "format": 7, "novelty": [] }"#,
-            "snapshot format 7 is newer than this arcade understands (3): use a newer arcade",
+            "snapshot format 7 is newer than this version of arcade supports (3): use a newer version",
         );
         refuse(r#"{ "format": 18446744073709551615 }"#, "snapshot format 18446744073709551615 is newer");
         refuse("[7]", "snapshot format 7 is newer");
