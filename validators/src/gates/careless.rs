@@ -33,8 +33,8 @@ impl<'a> CarelessPlays<'a> {
         CarelessPlays { game, seed, levels: plays, closer }
     }
 
-    /// Returns the episodes on a level by careless players, which press a random key in some ticks. The first call
-    /// costs one forward-model call per action and tick.
+    /// Returns the episodes that careless players, who press a random key in some ticks, played on a level. The first
+    /// call costs one forward-model call per action and tick.
     pub(super) fn plays(&self, won: WonLevel<'_>, gates: &Gates) -> &[Episode] {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }

@@ -113,7 +113,7 @@ impl GameValidator for Necessity {
     }
 }
 
-/// The answer to the question whether one element (a rule or type) matters.
+/// The result of testing whether one element (a rule or a type) matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Need {
     /// Tests show that the element matters.

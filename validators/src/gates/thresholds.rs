@@ -40,8 +40,8 @@ base::with_defaults! {
         /// `actors-matter`: the minimum fraction of levels with self-moving sprites on which these sprites come next to
         /// the player.
         pub met_levels: f64 = 0.5,
-        /// `actors-matter`: the minimum fraction of the losses of careless players (see `careless_plays`) that deadly
-        /// sprites cause.
+        /// `actors-matter`: the minimum fraction of careless players' losses (see `careless_plays`) that must be caused
+        /// by deadly sprites.
         pub foe_losses: f64 = 0.1,
         /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, as a mean over the
         /// levels.

@@ -8,15 +8,15 @@ use crate::legend::{Entry, EntryRole, Legend};
 use engine::{CountdownView, Event, Observation};
 use itertools::Itertools;
 
-/// The maximum number of positions listed per type, nearest first.
+/// The maximum number of positions listed per type, starting with those nearest to the avatar.
 const NEAREST: usize = 8;
 
 /// Describes each of the four directions from the avatar, and then lists all sprites except walls, as in
 /// `lantern: (3,2) (8,2)`.
 ///
-/// Up to `NEAREST` positions are listed per type, nearest first. Scenery at more than `NEAREST` positions is
-/// omitted, because the board shows it. Without an avatar, only the sprites are listed, row by row. Cost:
-/// O(cells × types).
+/// Up to `NEAREST` positions are listed per type, starting with those nearest to the avatar. Scenery at more
+/// than `NEAREST` positions is omitted, because the board shows it. Without an avatar, only the sprites are
+/// listed, row by row. Cost: O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let mut lines = Vec::new();

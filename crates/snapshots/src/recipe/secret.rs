@@ -91,8 +91,8 @@ impl Secret {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
-    /// Returns the seed of a release with the given recipe, mixed with the value of the recipe's beacon if
-    /// there is one; `None` if the beacon has no value yet.
+    /// Returns the seed of a release with the given recipe. If the recipe names a beacon, the beacon's value
+    /// is mixed in. Returns `None` if the beacon has no value yet.
     pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
         match recipe.get(BEACON) {
             None => Some(self.root_seed()),

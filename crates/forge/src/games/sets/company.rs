@@ -28,7 +28,7 @@ pub(crate) struct Company {
 pub(crate) struct Families(BTreeMap<String, usize>);
 
 impl Families {
-    /// Returns the number of games from a kernel (hand-written design), or from any kernel that hardly differs from it.
+    /// Returns the number of games from a kernel (hand-written design) and from all kernels that are nearly the same.
     pub(crate) fn games_of(&self, kernel: &str) -> usize {
         self.0.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
     }
