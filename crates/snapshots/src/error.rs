@@ -32,7 +32,7 @@ pub enum SnapshotError {
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.in_message())]
     Foreign(PathBuf),
     /// The output path contains the work of an interrupted run.
-    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.in_message())]
+    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove the folder to start over", .0.in_message())]
     Interrupted(PathBuf),
     /// The finished jobs belong to a different mint.
     #[error(
@@ -113,7 +113,9 @@ pub enum SnapshotError {
     )]
     Unfinished(PathBuf),
     /// The manifest's format is newer than every format supported by this binary.
-    #[error("snapshot format {found} is newer than this version of arcade supports ({known}): use a newer version")]
+    #[error(
+        "snapshot format {found} is newer than this version of arcade supports ({known}): use a newer version"
+    )]
     Format {
         /// The format stated in the manifest.
         found: u64,
@@ -174,7 +176,7 @@ pub enum SnapshotError {
     /// A path is too long for a tar header.
     #[error("the path `{0}` is too long for an archive: distribute the folder instead")]
     Untarable(String),
-    /// A value, most likely the recipe, has no canonical JSON.
+    /// A value, most likely the recipe, cannot be written as canonical JSON.
     #[error(transparent)]
     Canonical(#[from] CanonicalError),
     /// Two items have the same path.

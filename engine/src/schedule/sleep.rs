@@ -33,7 +33,7 @@ use crate::world::{Slot, Sprite, World, flag};
 pub(crate) mod mark {
     /// The sprite has not moved on its own, or has not moved in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
-    /// The sprite has moved on its own, and nothing else has happened.
+    /// The sprite has moved on its own, and nothing else has happened to it.
     pub(crate) const MOVED: u16 = 0x7FFF;
     /// Something other than its own movement has happened to the sprite.
     pub(crate) const DISTURBED: u16 = 0x7FFE;

@@ -130,7 +130,7 @@ impl Secret {
     /// matches the commitment.
     ///
     /// # Errors
-    /// Returns an error if the manifest's recipe has no canonical JSON.
+    /// Returns an error if the manifest's recipe cannot be written as canonical JSON.
     pub(crate) fn flaw(&self, manifest: &Manifest) -> Result<Option<String>, SnapshotError> {
         if Some(self.commitment()) != manifest.commitment {
             return Ok(Some("the seed and the nonce do not match the commitment".to_owned()));
@@ -160,7 +160,7 @@ impl Secret {
 /// value.
 ///
 /// # Errors
-/// Returns an error if the recipe has no canonical JSON.
+/// Returns an error if the recipe cannot be written as canonical JSON.
 pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
     let mut recipe = recipe.clone();
     if let Some(keys) = recipe.as_object_mut() {

@@ -19,11 +19,11 @@ pub(crate) struct Company {
     patterns: Vec<Vec<String>>,
     /// The scenes (themes) of the games.
     pub(crate) scenes: BTreeSet<String>,
-    /// The number of games in each family of kernels, which are hand-written designs that hardly differ.
+    /// The number of games in each family of kernels (hand-written designs) that hardly differ from each other.
     pub(crate) families: Families,
 }
 
-/// The number of games in each family of kernels, which are hand-written designs that hardly differ.
+/// The number of games in each family of kernels (hand-written designs) that hardly differ from each other.
 #[derive(Clone, Default)]
 pub(crate) struct Families(BTreeMap<String, usize>);
 

@@ -185,7 +185,7 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
                 true => format!("{name}: accepted without replaying its witnesses"),
                 false => format!(
                     "{name}: NOT verified: nothing shows that its levels can be won; use the version of arcade that minted it, or \
-                     accept that with --accept-unreplayed"
+                     pass --accept-unreplayed to accept it without replays"
                 ),
             });
         }
