@@ -55,7 +55,7 @@ base::with_defaults! {
         /// The players (for example `mcts:500`) with which difficulty and skill are measured, from weakest to
         /// strongest.
         pub ladder: Vec<String> = names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
-        /// The players that must show skill as well, and that never guide a search.
+        /// The players that must show skill in addition to those in `ladder`. They never guide a search.
         pub held_out: Vec<String> = names(&["mcts:300", "olets:200"]),
         /// The maximum number of episodes per player.
         pub ladder_plays: u64 = 12,

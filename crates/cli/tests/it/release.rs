@@ -206,7 +206,7 @@ fn occupied_outputs_are_refused_before_minting() {
     // A dry run writes nothing.
     let output = run(folder.path(), &["release", "tiny", "--out", "mine", "--dry-run"], 0);
     let said = text(&output.stdout);
-    assert!(said.contains("would mint 2 new games") && said.contains("which exists"), "{said}");
+    assert!(said.contains("would mint 2 new games") && said.contains("which already exists"), "{said}");
 }
 
 /// A repeated job in a job array has nothing to do, and succeeds.
