@@ -58,7 +58,7 @@ fn neighbours(own: &[Formed], public: &[Formed]) {
     }
 }
 
-/// Returns all pairs of games with their distances, nearest first.
+/// Returns all pairs of games with their distances, in order of increasing distance.
 fn pairs(games: &[Formed]) -> Vec<(f64, &str, &str)> {
     let mut pairs = Vec::new();
     for (at, one) in games.iter().enumerate() {

@@ -52,9 +52,10 @@ base::with_defaults! {
         pub early_seeds: u32 = 20,
         /// The maximum fraction of random seeds with which early death may be unavoidable.
         pub early_deaths: f64 = 0.05,
-        /// The players that measure difficulty and skill, from weakest to strongest, such as `mcts:500`.
+        /// The players (for example `mcts:500`) with which difficulty and skill are measured, from weakest to
+        /// strongest.
         pub ladder: Vec<String> = names(&["do-nothing", "random", "one-step", "mcts:30", "mcts:100", "olets:50"]),
-        /// The players that must show skill as well, and that never guide a search.
+        /// The players that must show skill in addition to those in `ladder`. They never guide a search.
         pub held_out: Vec<String> = names(&["mcts:300", "olets:200"]),
         /// The maximum number of episodes per player.
         pub ladder_plays: u64 = 12,

@@ -51,7 +51,7 @@ base::with_defaults! {
 /// The result of the portfolio.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The answer to the question of whether the level can be won, as far as it is known.
+    /// The finding on whether the level can be won.
     pub solution: Solution,
     /// The number of forward-model calls across all searches and episodes.
     pub calls: u64,
@@ -59,7 +59,7 @@ pub struct Solved {
     pub plays: Vec<Play>,
 }
 
-/// An answer to the question of whether a level can be won.
+/// A finding on whether a level can be won.
 #[derive(Clone, Debug)]
 pub enum Solution {
     /// The level was won in an episode.

@@ -179,7 +179,7 @@ const OTHER_VERBS: [(&str, &[&str]); 6] = [
     ("fmt", &["format", "convert"]),
 ];
 
-/// Suggests the `arcade` subcommand that corresponds to an unknown word's meaning in other programs, if any.
+/// If the unknown word is a command of other programs, suggests the `arcade` subcommand that does the same.
 fn with_own_verb(mut error: clap::Error, arguments: &[OsString]) -> clap::Error {
     let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     let Some((verb, _)) = OTHER_VERBS.iter().find(|(_, words)| words.contains(&unknown.as_str())) else {

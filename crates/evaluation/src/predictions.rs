@@ -78,8 +78,8 @@ impl Trials {
     }
 }
 
-/// Returns the truth value of a fact about a sprite type according to the rules. Returns `None` if it depends
-/// on more than the avatar's type and possessions.
+/// Returns the truth value of a fact about a sprite type according to the rules. Returns `None` if the truth
+/// value depends on more than the avatar's type and possessions.
 ///
 /// If the avatar can have several types, returns `None` unless the truth value is the same for all of them.
 pub fn truth(analysis: &Analysis, kind: SpriteType, fact: TouchFact) -> Option<bool> {

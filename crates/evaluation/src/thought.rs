@@ -2,7 +2,7 @@
 
 use crate::client::ChatReply;
 
-/// The start of the flag that states the budget in a player's aids, such as `max-output-tokens=500`.
+/// The start of the flag, such as `max-output-tokens=500`, that states the budget in a player's aids.
 const AID: &str = "max-output-tokens=";
 
 /// A limit on the length of each answer, as prompts state it. An answer that exceeds the limit counts as no answer.
@@ -29,7 +29,7 @@ impl AnswerLimit {
     }
 }
 
-/// Returns the budget of thought in the notation of a player's aids, such as `max-output-tokens=500`.
+/// Returns the budget of thought, such as `max-output-tokens=500`, in the notation of a player's aids.
 pub fn budget_aid(max_output_tokens: u32) -> String {
     format!("{AID}{max_output_tokens}")
 }

@@ -32,7 +32,7 @@ pub enum SnapshotError {
     #[error("`{}` was not made by arcade: choose another --out or move it away", .0.in_message())]
     Foreign(PathBuf),
     /// The output path contains the work of an interrupted run.
-    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove it to start over", .0.in_message())]
+    #[error("`{}` holds the work of an interrupted run: continue with the same command and --resume, or remove the folder to start over", .0.in_message())]
     Interrupted(PathBuf),
     /// The finished jobs belong to a different mint.
     #[error(
@@ -113,7 +113,9 @@ pub enum SnapshotError {
     )]
     Unfinished(PathBuf),
     /// The manifest's format is newer than every format supported by this binary.
-    #[error("snapshot format {found} is newer than this arcade understands ({known}): use a newer arcade")]
+    #[error(
+        "snapshot format {found} is newer than this version of arcade supports ({known}): use a newer version"
+    )]
     Format {
         /// The format stated in the manifest.
         found: u64,
@@ -147,7 +149,7 @@ pub enum SnapshotError {
     /// A folder being searched for releases does not contain a release.
     #[error("`{}` contains no release: pass a snapshot folder, its .tar.zst, or a folder that contains snapshots", .0.in_message())]
     NoRelease(PathBuf),
-    /// An archive is damaged so early that its manifest cannot be read.
+    /// An archive is damaged so close to its start that its manifest cannot be read.
     #[error("`{}` is not a valid archive: {message}", .path.in_message())]
     Archive {
         /// The path of the damaged archive.
@@ -174,7 +176,7 @@ pub enum SnapshotError {
     /// A path is too long for a tar header.
     #[error("the path `{0}` is too long for an archive: distribute the folder instead")]
     Untarable(String),
-    /// A value, most likely the recipe, has no canonical JSON.
+    /// A value, most likely the recipe, cannot be written as canonical JSON.
     #[error(transparent)]
     Canonical(#[from] CanonicalError),
     /// Two items have the same path.
@@ -216,7 +218,7 @@ mod tests {
         let newer = SnapshotError::Format { found: 7, known: 1 };
         assert_eq!(
             newer.to_string(),
-            "snapshot format 7 is newer than this arcade understands (1): use a newer arcade"
+            "snapshot format 7 is newer than this version of arcade supports (1): use a newer version"
         );
         let occupied = SnapshotError::Occupied("releases/new".into());
         assert_eq!(

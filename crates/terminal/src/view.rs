@@ -198,12 +198,12 @@ fn manner(session: &Session) -> String {
 fn keys_of(session: &Session) -> &'static str {
     match &session.player {
         Player::Person if session.turn_based => {
-            "arrows or WASD move, space uses, . waits, u undoes, r restarts, t real time, PgUp PgDn rules, q quits"
+            "arrows or WASD move, space use, . wait, u undo, r restart, t real time, PgUp/PgDn scroll rules, q quit"
         }
         Player::Person => {
-            "arrows or WASD move, space uses, p pauses, n one tick, u undoes, r restarts, + - pace, t turn by turn, PgUp PgDn rules, q quits"
+            "arrows or WASD move, space use, p pause, n step, u step back, r restart, +/- speed, t turn by turn, PgUp/PgDn scroll rules, q quit"
         }
-        _ => "p pauses, n one tick, u undoes one, r restarts, + - pace, PgUp PgDn rules, q quits",
+        _ => "p pause, n step, u step back, r restart, +/- speed, PgUp/PgDn scroll rules, q quit",
     }
 }
 
@@ -274,8 +274,8 @@ BasicGame
                  How you win:
                    Leave.
 
-arrows or WASD move, space uses, . waits, u undoes, r restarts,
-t real time, PgUp PgDn rules, q quits
+arrows or WASD move, space use, . wait, u undo, r restart, t
+real time, PgUp/PgDn scroll rules, q quit
 ";
         assert_eq!(drawn(&subject, (64, 15)), expect);
         subject.0.handle(Command::Act(Action::Right));
@@ -298,8 +298,8 @@ last action: none
 └──────────────┘
 @  mouse  you
 X  hatch  the way to win
-arrows or WASD move, space uses, .
-waits, u undoes, r restarts, t real
+arrows or WASD move, space use, .
+wait, u undo, r restart, t real
 ";
         assert_eq!(drawn(&subject, (36, 12)), expect);
         assert!(drawn(&subject, (35, 12)).contains("too small"));

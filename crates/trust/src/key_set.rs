@@ -102,7 +102,7 @@ impl KeySet {
     /// Checks the set's values. Returns an error that describes the first fault.
     fn check(&self) -> Result<(), String> {
         if self.format != FORMAT {
-            return Err(format!("has format {}; this arcade reads format {FORMAT}", self.format));
+            return Err(format!("has format {}; this version of arcade reads format {FORMAT}", self.format));
         }
         if self.version == 0 || (self.version == 1) != self.previous.is_none() {
             return Err("its `version` and `previous` contradict each other".to_owned());

@@ -71,9 +71,10 @@ impl Statement {
         let statement: Statement = canonical(bytes, place)?;
         match statement.format {
             FORMAT => Ok(statement),
-            other => {
-                Err(TrustError::document(place, format!("has format {other}; this arcade reads {FORMAT}")))
-            }
+            other => Err(TrustError::document(
+                place,
+                format!("has format {other}; this version of arcade reads format {FORMAT}"),
+            )),
         }
     }
 

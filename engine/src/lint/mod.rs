@@ -153,7 +153,7 @@ impl Linter<'_> {
         })
     }
 
-    /// Returns the possible types to which a rule on `written` applies.
+    /// Returns the types to which a rule on `written` applies, without types that can never be on the board.
     fn tree(&self, written: SpriteType) -> Vec<SpriteType> {
         let types = self.game.sprite_types();
         types

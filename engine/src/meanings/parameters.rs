@@ -146,6 +146,6 @@ pub(super) const TERMINATION_PARAMETERS: &[Meaning] = &[
     means(
         "bonus score scorechange points reward",
         &[],
-        "remove the parameter: terminations give no points; write `scoreChange=` on the rule that decides the game",
+        "remove the parameter, because terminations give no points; write `scoreChange=` on the rule that decides the game",
     ),
 ];

@@ -6,8 +6,8 @@ use crate::rules::SpriteType;
 use smallvec::SmallVec;
 
 base::with_defaults! {
-    /// The values of a type's fields after applying class defaults and parameters: a sprite's initial values
-    /// and its constants. The defaults are those of the base sprite.
+    /// The values of a type's fields after class defaults and parameters are applied: a sprite's initial
+    /// values and its constants. `Default` gives the values of the base sprite.
     #[derive(Clone, Debug)]
     pub(crate) struct Traits {
         pub(crate) speed: f64 = 0.0,

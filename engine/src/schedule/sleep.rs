@@ -33,9 +33,9 @@ use crate::world::{Slot, Sprite, World, flag};
 pub(crate) mod mark {
     /// The sprite has not moved on its own, or has not moved in the way that sleeping sprites do.
     pub(crate) const NOTHING: u16 = 0;
-    /// The sprite has moved on its own, and nothing else has happened.
+    /// The sprite has moved on its own, and nothing else has happened to it.
     pub(crate) const MOVED: u16 = 0x7FFF;
-    /// Something else has happened as well.
+    /// Something other than its own movement has happened to the sprite.
     pub(crate) const DISTURBED: u16 = 0x7FFE;
     /// The bit that marks sprites that are not updated. Without this bit, any other value is one more than
     /// the index of the pass that moved the sprite back.

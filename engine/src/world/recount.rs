@@ -152,7 +152,9 @@ impl World {
         let mut holes = 0;
         while free != NONE {
             if alive[usize::from(free)] || holes > self.sprites.len() {
-                return Err(format!("slot {free} is in the free list and in use, or the list is a ring"));
+                return Err(format!(
+                    "slot {free} is in use but on the free list, or the free list has a cycle"
+                ));
             }
             (holes, free) = (holes + 1, self.sprite(free).next);
         }
@@ -185,7 +187,7 @@ impl World {
                 ));
             }
             if sprite.is(flag::KILLED) || sprite.is(flag::DIRTY) != self.dirty.contains(&(at as Slot)) {
-                return Err(format!("slot {at} was left half-way by the last step"));
+                return Err(format!("the last step left slot {at} partly updated"));
             }
             let overrides = self.overrides_of(sprite);
             let is_own = overrides.holder != NONE;

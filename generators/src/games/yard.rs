@@ -40,7 +40,7 @@ impl YardRules {
     pub(crate) const SIGNS: [char; 4] = ['u', 'l', 'd', 'r'];
     /// The point characters: one that sends carts up and down alternately, and one that sends them right and left.
     pub(crate) const POINTS: [char; 2] = ['v', 'h'];
-    /// The cart and wagon characters, each on a sign to the right.
+    /// The characters for a cart and a wagon, each placed on top of a sign that points right.
     pub(crate) const CARTS: [char; 2] = ['c', 'g'];
     /// The level character of the deadly sprites that wander at random.
     pub(crate) const STRAY: char = 'y';

@@ -265,7 +265,7 @@ impl Invention {
     }
 }
 
-/// Draws a number of mechanics. Half of the draws have the minimum number, because players must grasp the rules
+/// Draws how many mechanics a game has. Half of the draws give the minimum, because players must grasp the rules
 /// quickly.
 fn size(config: &InventionConfig, sampler: &mut Sampler) -> usize {
     if sampler.ratio(1, 2) { config.mechanics.max(2) } else { 2 }

@@ -150,7 +150,7 @@ impl KernelGenome {
     }
 
     /// Returns the kernel that represents the family of the given kernel. A family consists of kernels that hardly
-    /// differ.
+    /// differ from each other.
     pub fn family(kernel: &str) -> &str {
         let named = Kernel::all().iter().find(|other| other.name == kernel);
         named.and_then(|kernel| kernel.like.as_deref()).unwrap_or(kernel)

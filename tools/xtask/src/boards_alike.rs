@@ -104,7 +104,7 @@ impl Board {
     }
 
     /// Returns the maximum similarity over all shifts for which the other board covers at least half of this
-    /// one.
+    /// board.
     fn best_shift(&self, other: &Board) -> f64 {
         let [columns, rows, wide, high] =
             [self.columns, self.rows(), other.columns, other.rows()].map(|side| side as i64);

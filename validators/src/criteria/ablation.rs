@@ -23,14 +23,15 @@ use rayon::prelude::*;
 /// rule.
 ///
 /// One change suffices for a pass. If no test shows a change, the verdict is unknown. The criterion fails only if a
-/// rule is proven superfluous: on every level, all sequences of actions have the same outcome and score without it.
+/// rule is proven superfluous: on every level, all sequences of actions have the same outcome and score without the
+/// rule.
 ///
 /// Rules on walls and the screen edge are guards. Guards are reported but never fail, because the sprites
 /// that they remove far from the player may never matter.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RulesMatter {
-    /// The number of forward-model calls per interaction. A proof that an interaction is superfluous may take up to a
-    /// quarter of this number in addition.
+    /// The number of forward-model calls per interaction. A proof that an interaction is superfluous may take up to
+    /// another quarter of this number.
     calls: u64,
     /// The maximum total number of forward-model calls for all interactions; `None` for no limit. Tests beyond the
     /// limit are skipped.

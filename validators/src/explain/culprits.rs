@@ -288,7 +288,8 @@ impl Trials<'_> {
         let mut seen = vec![won.evidence()];
         let written = &game.description().interactions[line];
         let name = Line::interaction(game, line).text;
-        // Insert the rule below the last rule that shields the avatar from it, or at the end.
+        // Insert the rule below the last rule that shields the avatar from it. Without such a rule, insert it at the
+        // end.
         let shields = |other: &InteractionLine| {
             let value = |key: &str| other.params.iter().find(|param| param.key.text == key);
             other.effect.text == "shieldFrom"

@@ -12,8 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Passes if self-moving sprites, not counting the player's shots, sweep an average of at least [`Gates::sweep`] cells
 /// each. In addition, on at least [`Gates::met_levels`] of the levels with such sprites, one of them must enter (or
 /// come next to) a cell on the win's route, and come next to the player. If contact with such sprites can kill, they
-/// must also cause at least [`Gates::foe_losses`] of the losses of careless players. Careless players head for the
-/// nearest goal, but press a random key in some ticks.
+/// must also cause at least [`Gates::foe_losses`] of careless players' losses. Careless players head for the nearest
+/// goal, but press a random key in some ticks.
 ///
 /// The sprites are observed in the shortest known wins and in the careless players' episodes. A sprite counts if it
 /// lived for twenty ticks. Such sprites cause a loss if the avatar meets one of them, or one of their products, in the

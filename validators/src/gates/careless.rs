@@ -33,8 +33,8 @@ impl<'a> CarelessPlays<'a> {
         CarelessPlays { game, seed, levels: plays, closer }
     }
 
-    /// Returns the episodes on a level by careless players, which press a random key in some ticks. The first call
-    /// costs one forward-model call per action and tick.
+    /// Returns the episodes that careless players, who press a random key in some ticks, played on a level. The first
+    /// call costs one forward-model call per action and tick.
     pub(super) fn plays(&self, won: WonLevel<'_>, gates: &Gates) -> &[Episode] {
         self.levels[won.number].get_or_init(|| self.numbered_plays(won, gates, 0..gates.careless_plays))
     }
@@ -90,7 +90,7 @@ pub(super) fn nearest_goal(
     numbers.into_par_iter().map(run).collect()
 }
 
-/// Returns the fraction of a level's episodes by careless players that the rules end with a win or a loss. All other
+/// Returns the fraction of careless players' episodes on a level that the rules end with a win or a loss. All other
 /// episodes get stuck. Cost: [`Gates::careless_plays`] episodes, with one call per action and tick.
 pub fn ended_share(game: &Game, level: &Level, win: &Episode, gates: &Gates, seed: Seed) -> f64 {
     let numbers = 0..gates.careless_plays;

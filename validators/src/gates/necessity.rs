@@ -113,7 +113,7 @@ impl GameValidator for Necessity {
     }
 }
 
-/// The answer to the question whether one element (a rule or type) matters.
+/// The result of testing whether one element (a rule or a type) matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Need {
     /// Tests show that the element matters.
@@ -131,7 +131,8 @@ struct Shortest {
     sure: bool,
 }
 
-/// A level with its win, and with its episodes by careless players, which press a random key in some ticks.
+/// A level with its win, and with the episodes that careless players, who press a random key in some ticks, played on
+/// it.
 struct Subject<'a> {
     won: WonLevel<'a>,
     careless: &'a [Episode],

@@ -40,8 +40,8 @@ base::with_defaults! {
         /// `actors-matter`: the minimum fraction of levels with self-moving sprites on which these sprites come next to
         /// the player.
         pub met_levels: f64 = 0.5,
-        /// `actors-matter`: the minimum fraction of the losses of careless players (see `careless_plays`) that deadly
-        /// sprites cause.
+        /// `actors-matter`: the minimum fraction of careless players' losses (see `careless_plays`) that must be caused
+        /// by deadly sprites.
         pub foe_losses: f64 = 0.1,
         /// `tight`: the minimum and maximum fraction of the consumables that a win may leave, as a mean over the
         /// levels.
@@ -53,8 +53,8 @@ base::with_defaults! {
         pub careless_slips: f64 = 0.25,
         /// `tight`: the maximum fraction of their episodes that careless players (see `careless_plays`) may win.
         pub careless_wins: f64 = 0.5,
-        /// `necessity`: the minimum relative change in the length of a win, or the minimum fraction of episodes of
-        /// careless players (see `careless_plays`) that end differently, at which an element matters.
+        /// `necessity`: the minimum relative change in the length of a win at which an element matters. An element also
+        /// matters if at least this fraction of careless players' episodes (see `careless_plays`) end differently.
         pub plan_change: f64 = 0.15,
         /// `necessity`: the minimum fraction of levels on which a rule or type must matter in order to count, among the
         /// levels on which it occurs.

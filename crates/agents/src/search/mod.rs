@@ -41,7 +41,7 @@ impl SearchLimits {
 /// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Searched {
-    /// The answer to the question of whether the level can be won, as far as it is known.
+    /// The finding on whether the level can be won.
     pub answer: Answer,
     /// The cost of the search in forward-model calls.
     pub calls: u64,

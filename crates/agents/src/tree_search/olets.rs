@@ -194,7 +194,7 @@ impl Olets {
     }
 
     /// Chooses the branch to descend: sometimes a random branch, and otherwise the branch with the greatest
-    /// value, including exploration and penalty.
+    /// value after the exploration bonus is added and the penalty is subtracted.
     fn select(&self, node: usize, decision: &mut Decision) -> usize {
         let (choices, width) = (&mut decision.choices, self.actions.len());
         if choices.unit() < self.config.random {

@@ -28,7 +28,7 @@ pub const MAX_DEPTH: usize = 127;
 
 /// The error for a value without a canonical JSON text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{} has no canonical JSON: {fault}", match at.as_str() { "" => "the value".into(), at => format!("`{}`", at.escape_debug()) })]
+#[error("{} cannot be written as canonical JSON: {fault}", match at.as_str() { "" => "the value".into(), at => format!("`{}`", at.escape_debug()) })]
 pub struct CanonicalError {
     /// The position of the fault in the value, as keys and indices joined by dots. Empty if the fault is the
     /// value itself.

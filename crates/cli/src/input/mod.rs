@@ -106,7 +106,7 @@ fn lost_level(path: &Path) -> Failure {
         let names =
             beside.iter().map(|game| format!("`{}`", game.source.name)).collect::<Vec<_>>().join(", ");
         return malformed!(
-            "{name}: this is a level, and there are several games next to it: {names}; pass its game first: \
+            "{name} is a level, and several games are next to it ({names}); pass its game first: \
              arcade validate GAME {}",
             shell::quoted(path)
         );

@@ -190,7 +190,7 @@ pub(crate) fn warn_of_readers(file: &Path, console: &Console) {
     if disk::is_readable_by_others(file) {
         let place = shell::quoted(file);
         console.remark(format_args!(
-            "warning: other users can read the secret in {place}; protect it: chmod 600 {place}"
+            "warning: other users can read the secret in {place}; protect it with `chmod 600 {place}`"
         ));
     }
 }

@@ -251,7 +251,7 @@ fn a_commitment_that_leads_nowhere_is_refused() {
     append(
         &["--commitment", "2027-02.toml"],
         2,
-        "the log already has `tiny`: pass the release before this one with --parent DIR",
+        "the log already has `tiny`: pass the previous release with --parent DIR",
     );
     append(&["--commitment", "2027-02.toml", "--first"], 2, "did you forget --parent?");
     let changed = february(&commitment).replace("candidates = 2.0", "candidates = 3.0");

@@ -206,7 +206,7 @@ fn occupied_outputs_are_refused_before_minting() {
     // A dry run writes nothing.
     let output = run(folder.path(), &["release", "tiny", "--out", "mine", "--dry-run"], 0);
     let said = text(&output.stdout);
-    assert!(said.contains("would mint 2 new games") && said.contains("which exists"), "{said}");
+    assert!(said.contains("would mint 2 new games") && said.contains("which already exists"), "{said}");
 }
 
 /// A repeated job in a job array has nothing to do, and succeeds.
@@ -445,7 +445,7 @@ fn non_snapshots_are_named() {
     // The folder with both parts stands for the published part, whose manifest is damaged here.
     let said = text(&run(folder, &["verify", "sealed"], 1).stdout);
     assert!(said.contains("sealed/public: does NOT verify"), "{said}");
-    let takes = "a snapshot is a folder with MANIFEST.json, or its .tar.zst";
+    let takes = "a snapshot is a folder that contains MANIFEST.json, or the .tar.zst that";
     for (place, what) in [
         ("passwd", "`passwd` is a file, but not a snapshot archive"),
         ("game.vgdl", "is a text file: check a game with `arcade validate`"),

@@ -18,7 +18,7 @@ pub(super) struct Wire {
 
 /// The reason why an exchange yielded no reply.
 pub(super) struct WireError {
-    /// The HTTP status, if the reply got that far.
+    /// The HTTP status, if the reply contained one.
     pub(super) status: Option<u16>,
     pub(super) message: String,
     /// `true` if the server's machine refused the connection, usually because no server is running.

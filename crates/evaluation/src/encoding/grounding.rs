@@ -8,15 +8,15 @@ use crate::legend::{Entry, EntryRole, Legend};
 use engine::{CountdownView, Event, Observation};
 use itertools::Itertools;
 
-/// The maximum number of positions listed per type, nearest first.
+/// The maximum number of positions listed per type, starting with those nearest to the avatar.
 const NEAREST: usize = 8;
 
 /// Describes each of the four directions from the avatar, and then lists all sprites except walls, as in
 /// `lantern: (3,2) (8,2)`.
 ///
-/// Up to `NEAREST` positions are listed per type, nearest first. Scenery at more than `NEAREST` positions is
-/// omitted, because the board shows it. Without an avatar, only the sprites are listed, row by row. Cost:
-/// O(cells × types).
+/// Up to `NEAREST` positions are listed per type, starting with those nearest to the avatar. Scenery at more
+/// than `NEAREST` positions is omitted, because the board shows it. Without an avatar, only the sprites are
+/// listed, row by row. Cost: O(cells × types).
 pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
     let scene = Scene::of(observation, legend);
     let mut lines = Vec::new();
@@ -41,8 +41,8 @@ pub fn grounding(observation: &Observation, legend: &Legend) -> Vec<String> {
 }
 
 /// Lists the sprites that move straight ahead, by direction, as in `drifter: right (7,1) (2,2), left (10,3)`.
-/// Up to `NEAREST` sprites are listed per type, nearest first. Types that always move in a direction stated
-/// in the rules are omitted. Cost: O(movers × types).
+/// Up to `NEAREST` sprites are listed per type, starting with those nearest to the avatar. Types that always
+/// move in a direction stated in the rules are omitted. Cost: O(movers × types).
 pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
     let turned = legend.entries().iter().filter(|entry| entry.is_turned);
     turned
@@ -50,8 +50,8 @@ pub fn directions(observation: &Observation, legend: &Legend) -> Vec<String> {
         .collect()
 }
 
-/// Lists the directions of a type's sprites, each with the cells of up to `NEAREST` sprites, nearest first.
-/// Returns `None` if no sprite has a direction.
+/// Lists the directions of a type's sprites, each with the cells of up to `NEAREST` sprites, starting with
+/// those nearest to the avatar. Returns `None` if no sprite has a direction.
 fn ways(observation: &Observation, legend: &Legend, entry: &Entry) -> Option<String> {
     let avatar = Scene::of(observation, legend).avatar;
     let of_type = observation.movers.iter().filter(|mover| mover.name == entry.name);

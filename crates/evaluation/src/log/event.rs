@@ -224,7 +224,7 @@ impl Reply {
 pub enum ReplyClass {
     /// The answer states an action in the requested format.
     Strict,
-    /// The answer states an action in a different format, read by a tolerant rule.
+    /// The answer states an action in a format other than the requested one. A tolerant rule read the action.
     Tolerant,
     /// The answer contains no readable action, or states a nonexistent one.
     Invalid,

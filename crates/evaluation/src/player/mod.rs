@@ -17,7 +17,7 @@ use crate::run::Task;
 use crate::turn::Turn;
 use engine::Action;
 
-/// A player that sees only the turns shown to it.
+/// A player that sees nothing of the game but the turns passed to it.
 pub trait Agent: Send {
     /// Chooses the next action, or the next actions if the player commits to several ([`Turn::due`]).
     ///
@@ -73,9 +73,8 @@ pub struct Said {
 /// An agent's decision.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Choice {
-    /// The actions to play, one per tick. If there are fewer actions than a decision must contain, [`Action::Nil`] is
-    /// played in the remaining ticks. [`Action::Nil`] also replaces actions that are unavailable when they are due.
-    /// Actions beyond that number are not played.
+    /// The actions to play, one per tick. Missing actions are filled with [`Action::Nil`], and surplus actions are
+    /// ignored. An action that is unavailable when it is due is replaced by [`Action::Nil`].
     pub actions: Vec<Action>,
     /// The validity of the choice.
     pub validity: Validity,

@@ -4,7 +4,7 @@ use crate::answer;
 use crate::tokens;
 use engine::Action;
 
-/// The maximum number of bytes of an answer that later turns show. Longer answers are cut at the start.
+/// The maximum number of bytes of an answer to show in later turns. Longer answers lose their beginning.
 const MAX_ANSWER: usize = 2_000;
 
 /// The text that replaces an empty answer, because providers reject empty messages.

@@ -15,11 +15,11 @@ use std::collections::BTreeMap;
 /// A reference player whose name, budget and version are fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ScalePlayer {
-    /// The name of the examinee (a reference player whose play never changes), including its version, such as `mcts-1`.
+    /// The name of the examinee (a reference player whose play never changes), such as `mcts-1`, including its version.
     pub name: &'static str,
     /// The family of the player. Players in the same family find the same games hard.
     pub family: &'static str,
-    /// The player, with its budget in forward-model calls per decision, such as `mcts:200`.
+    /// The player, such as `mcts:200`, with its budget in forward-model calls per decision.
     pub player: &'static str,
     /// The dimension of the player's ability: that of planners, or that of players that see only prompts.
     pub dimension: Dimension,

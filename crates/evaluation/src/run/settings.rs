@@ -132,8 +132,8 @@ pub struct LevelEntry {
 }
 
 impl Settings {
-    /// Returns a warning if some levels have no known win within the step limit, such as
-    /// `38 of 54 levels have no known win within 40 steps`.
+    /// Returns a warning, such as `38 of 54 levels have no known win within 40 steps`, if some levels have no known win
+    /// within the step limit.
     pub fn out_of_reach(&self) -> Option<String> {
         let of_level = |game: &SubjectEntry, number: usize| game.facts.known_wins.get(&number).copied();
         let levels = self.games.iter().flat_map(|game| game.levels.iter().map(move |level| (game, level)));

@@ -125,7 +125,7 @@ pub struct MonthEntry {
     /// The standard error shared by the difficulties of all levels, for planners and for readers (players that see only
     /// prompts).
     pub link: [f64; 2],
-    /// The number of anchors that played the release. Anchors are the scale's unchanging players that see only prompts.
+    /// The number of anchors that played the release. Anchors are players that see only prompts and never change.
     pub anchors: u64,
     /// The release's additional difficulty for readers (players that see only prompts) compared with planners,
     /// estimated from the anchors (unchanging readers).

@@ -44,7 +44,7 @@ pub struct TimelineMonth {
     pub spreads: [f64; 2],
     /// The mean misfit of the month's games, which is about 1 if the episodes fit the model.
     pub misfit: f64,
-    /// The number of anchors that played the month. Anchors are the scale's unchanging players that see only prompts.
+    /// The number of anchors that played the month. Anchors are players that see only prompts and never change.
     pub anchors: u64,
     /// The month's additional difficulty for the anchors (unchanging players that see only prompts), beyond that
     /// implied by its difficulty for planners.

@@ -20,7 +20,8 @@ pub struct Reproduced {
     /// The number of transitions after which the whole observable state is the same: the board, the score, the
     /// resources, the health and the outcome.
     pub state: u64,
-    /// The number of episodes whose observable states first differ after a transition of this kind.
+    /// The number of episodes in which the predicted observable state first differs from the real one after a
+    /// transition of this kind.
     pub first_deviations: u64,
 }
 

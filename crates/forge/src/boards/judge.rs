@@ -100,7 +100,7 @@ impl Judged {
 
 impl Judge<'_> {
     /// Judges a board. Skips the deviations if the board is clearly worse than the best so far, because the cost of its
-    /// deviations could hardly change that. Skipped deviations count as having no cost.
+    /// deviations could hardly make it the best board. Skipped deviations count as having no cost.
     pub(super) fn judge(&self, level: &Level, best: f64) -> Judged {
         if self.order.unlike.iter().any(|other| are_one_board(level, other)) {
             return Judged::failed(0.0, 0.0, 0);

@@ -83,8 +83,8 @@ impl GameOrder {
         }
     }
 
-    /// Creates an order of `count` invented games by a method, with five levels each. Many rule sets are tried, because
-    /// most of them yield no boards worth playing.
+    /// Creates an order for `count` games with five levels each, invented by the given method. Many rule sets are
+    /// tried, because most of them yield no boards worth playing.
     pub fn of_inventions(method: Method, count: u32) -> GameOrder {
         let order = GameOrder::new(count);
         let attempts = match method {

@@ -20,9 +20,9 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// Chooses two axes: the solution length and the other measure in which a sample's won levels differ most. If
-    /// hardly any level was won, chooses the two board measures in which all levels differ most. The ranges are those
-    /// of the sample without outliers, extended by half at both ends.
+    /// Chooses two axes: the solution length and the other measure in which a sample's won levels differ most from each
+    /// other. If hardly any level was won, chooses the two board measures in which all levels differ most from each
+    /// other. The ranges are those of the sample without outliers, extended by half at both ends.
     ///
     /// Each quick evaluation in the sample contains all measures, in the order of [`names`].
     pub(super) fn of<'a>(sample: impl Iterator<Item = &'a Look> + Clone, wanted: usize) -> Axes {

@@ -19,8 +19,8 @@ use std::collections::BTreeSet;
 
 /// The feasibility of a level that passed a quick evaluation and was rejected by the panel.
 const REFUSED: f64 = 0.95;
-/// The fraction of an archive's effort spent on new levels before breeding starts. New levels differ more than edited
-/// levels do.
+/// The fraction of an archive's effort spent on new levels before breeding starts. New levels differ more from each
+/// other than edited levels do.
 const CREATION: f64 = 0.4;
 /// The fraction of candidates that are new levels, after breeding has started.
 const FRESH: f64 = 0.1;

@@ -102,8 +102,8 @@ impl LevelTrial<'_> {
 
     pub(super) const LATER_MECHANIC: Stage<Self> = Stage {
         name: "later mechanic",
-        purpose: "for a replacement of a course's first level, requires that later wins need a mechanic \
-                  that its own win does not need",
+        purpose: "when replacing a course's first level, requires a later win to need a mechanic that the \
+                  replacement's own win does not need",
         cost: "a replay of each win",
         criteria: CriterionSet::of(&[Criterion::Progression]),
         ..Stage::once(Self::ask_for_something_left)

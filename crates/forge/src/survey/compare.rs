@@ -170,7 +170,7 @@ impl Comparison {
     /// Returns the comparison as a table, with a note on the omitted games.
     pub fn table(&self) -> Table {
         let level = self.lines.iter().filter(|line| line.level == Some(true)).count();
-        let mut note = format!("At least equal on {level} of {} lines.", self.lines.len());
+        let mut note = format!("Ours are at least equal to theirs on {level} of {} lines.", self.lines.len());
         for (side, of) in
             [("ours", (|line| &line.ours) as fn(&Line) -> &Group), ("theirs", |line| &line.theirs)]
         {

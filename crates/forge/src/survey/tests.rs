@@ -117,7 +117,7 @@ fn groups_are_compared_line_by_line() {
     assert_eq!((drama.level, drama.points.map(f64::round)), (Some(false), Some(-40.0)));
     assert_eq!(line("no dead sprites").interval, Some([0.0, 0.0]));
     assert!(comparison.table().to_markdown().contains(
-        "At least equal on 6 of 7 lines. mechanics in winning play, theirs: 2 left out, no win found."
+        "Ours are at least equal to theirs on 6 of 7 lines. mechanics in winning play, theirs: 2 left out, no win found."
     ));
     let nobody = Comparison::of(&ours, &[], Seed::from_text("compare"));
     assert!(nobody.lines.iter().all(|line| line.difference.is_none() && line.level.is_none()));

@@ -112,7 +112,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut aids = Section::new("aids", "Without and with an aid", "");
     aids.tables = of(&["aids-overall", "aids-by-game", "aids-by-level"]);
     if aids.tables.is_empty() {
-        aids.note = "No model was evaluated without and with an aid.".to_owned();
+        aids.note = "No model was evaluated both with and without an aid.".to_owned();
     }
 
     let whose = if study.players.iter().any(|player| !player.is_reference()) {

@@ -137,7 +137,7 @@ fn episodes(study: &Study) -> String {
     }
     let all = words::many(study.episodes.len() as u64, "episode");
     if excluded.is_empty() {
-        return format!("{all}: all ended, and no episode is left out.");
+        return format!("{all}: all of them ended, and none was excluded.");
     }
     let why: Vec<String> =
         excluded.iter().map(|(why, count)| format!("{} {why}", words::grouped(*count))).collect();

@@ -218,7 +218,7 @@ fn is_dropped(analysis: &Analysis, stype: SpriteType) -> bool {
 }
 
 /// Returns `true` if sprites of the type stay when touched, and several level characters place something on top of
-/// them. Such a type is not an object, but the ground in part of the board.
+/// them. Such a type is the ground of some part of the board rather than an object.
 fn lies_under(analysis: &Analysis, stype: SpriteType) -> bool {
     let game = analysis.game();
     let stays = analysis.avatars().iter().all(|avatar| !analysis.touch(avatar.stype, stype).ends_other());

@@ -19,7 +19,7 @@ const MAX_PIPS: u8 = 4;
 /// The look of a sprite type: everything that determines its tile, except the orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Look {
-    /// The glyph (symbol) according to the rules, which determines the type's meaning in legends.
+    /// The glyph (symbol) derived from the rules. The glyph decides how legends describe the type.
     pub glyph: Glyph,
     /// The shape that is drawn: a figure if the game specifies an image, and the symbol chosen from the rules (the
     /// glyph) otherwise.

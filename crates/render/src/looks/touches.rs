@@ -1,4 +1,4 @@
-//! The effects of touching a sprite: the things that the avatar's touch gives, makes, opens and changes.
+//! The effects of the avatar touching a sprite: the things that the avatar gains, creates, opens and changes.
 
 use super::glyph::changes_speed;
 use super::{remarks, wins};

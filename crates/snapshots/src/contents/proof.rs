@@ -149,7 +149,7 @@ impl ItemProof {
         let unsound = |what: String| Err(ProofError::Unsound(what));
         if proof.format != PROOF_FORMAT {
             return unsound(format!(
-                "the proof has format {}, but this arcade reads format {PROOF_FORMAT}",
+                "the proof has format {}, but this version of arcade reads format {PROOF_FORMAT}",
                 proof.format
             ));
         }

@@ -243,7 +243,7 @@ pub(super) fn select(
     if missed.is_empty() {
         return Ok(taken);
     }
-    let small = "either raise `generated.candidates` or `corpus.candidates` or relax the quotas";
+    let small = "raise `generated.candidates` or `corpus.candidates`, or relax the quotas,";
     let advice = advice(recipe, small, "add kernels");
     Err(MintError::Uneven { candidates: fit.len(), missed, advice })
 }

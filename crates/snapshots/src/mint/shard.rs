@@ -168,7 +168,7 @@ fn path(name: &str) -> String {
 #[non_exhaustive]
 pub enum MergeError {
     /// The folder has no `SHARD.json`.
-    #[error("{}: not a shard: there is no {SHARD_FILE}; continue an unfinished one with `arcade release … \
+    #[error("{}: not a shard, because it has no {SHARD_FILE}; continue an unfinished shard with `arcade release … \
              --shard K/N --resume`", .0.in_message())]
     NotAShard(PathBuf),
     /// `SHARD.json` is invalid.
@@ -301,7 +301,7 @@ impl Shards {
                 self.get(name)?.ok_or_else(|| place("not a job of this plan: mint the job again".into()))?;
             let wrong = job.games.iter().find_map(|game| problem(game, plan.seed, plan.recipe));
             wrong.map_or(Ok(()), |what| {
-                Err(place(format!("{what}; no mint produces this result: mint the job again")))
+                Err(place(format!("{what}; no mint produces such a result, so mint the job again")))
             })
         })
     }
@@ -376,7 +376,7 @@ fn shard_file(folder: &Path) -> Result<ShardFile, MergeError> {
     if (file.generation, file.semantics) != (generators::GENERATION, engine::SEMANTICS) {
         let made_by = MintedBy { version: None, generation: file.generation, semantics: file.semantics };
         let what = format!(
-            "made by {made_by}; this is arcade {CURRENT}: merge with the version that made the shard"
+            "made by {made_by}, but this is arcade {CURRENT}; merge with the version that made the shard"
         );
         return Err(unsound(folder, what));
     }

@@ -28,7 +28,7 @@ pub enum RegenerateError {
     /// The release was minted by a different version of the generators.
     #[error("this release was minted by {}; this is arcade {CURRENT}: {}", .0, next_move(.0))]
     OtherVersion(MintedBy),
-    /// No version can have written the manifest.
+    /// No version of the program could have written this manifest.
     #[error(
         "{MANIFEST_FILE} is damaged or was changed: {0}; fetch the release again, and run `arcade verify` on it"
     )]
@@ -59,7 +59,7 @@ fn next_move(minted_by: &MintedBy) -> String {
         Some(command) => {
             format!("install that version in a clone of the repository (`{command}`) and regenerate with it")
         }
-        None => "neither the manifest nor this arcade knows a version that can mint it".to_owned(),
+        None => "neither the manifest nor this version of arcade names a version that can mint it".to_owned(),
     }
 }
 

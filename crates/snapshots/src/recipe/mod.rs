@@ -138,12 +138,14 @@ impl Recipe {
     fn mismatch_advice(&self, secret: &Secret) -> &'static str {
         let alone = Recipe { parent: None, ..self.clone() };
         match self.parent {
-            None => "did you forget --parent? Pass the same parent as with `--commit`, undo other changes",
+            None => {
+                "did you forget --parent? Pass the same parent as with `--commit`, and undo any other changes"
+            }
             Some(_) if secret.recipe == Some(alone.committed()) => {
                 "only the parent is new, because the commitment has no parent; omit --parent"
             }
             Some(_) => {
-                "is --parent a different release? Pass the same parent as with `--commit`, undo other changes"
+                "is --parent a different release? Pass the same parent as with `--commit`, and undo any other changes"
             }
         }
     }

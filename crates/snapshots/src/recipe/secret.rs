@@ -91,8 +91,8 @@ impl Secret {
         Seed::from_text(&self.seed).child(&format!("nonce {}", self.nonce), 0)
     }
 
-    /// Returns the seed of a release with the given recipe, mixed with the value of the recipe's beacon if
-    /// there is one; `None` if the beacon has no value yet.
+    /// Returns the seed of a release with the given recipe. If the recipe names a beacon, the beacon's value
+    /// is mixed in. Returns `None` if the beacon has no value yet.
     pub(crate) fn seed_for(&self, recipe: &Value) -> Option<Seed> {
         match recipe.get(BEACON) {
             None => Some(self.root_seed()),
@@ -130,7 +130,7 @@ impl Secret {
     /// matches the commitment.
     ///
     /// # Errors
-    /// Returns an error if the manifest's recipe has no canonical JSON.
+    /// Returns an error if the manifest's recipe cannot be written as canonical JSON.
     pub(crate) fn flaw(&self, manifest: &Manifest) -> Result<Option<String>, SnapshotError> {
         if Some(self.commitment()) != manifest.commitment {
             return Ok(Some("the seed and the nonce do not match the commitment".to_owned()));
@@ -160,7 +160,7 @@ impl Secret {
 /// value.
 ///
 /// # Errors
-/// Returns an error if the recipe has no canonical JSON.
+/// Returns an error if the recipe cannot be written as canonical JSON.
 pub(crate) fn committed(recipe: &Value) -> Result<Digest, CanonicalError> {
     let mut recipe = recipe.clone();
     if let Some(keys) = recipe.as_object_mut() {

@@ -130,10 +130,11 @@ pub(crate) trait Section: Sync {
         None
     }
 
-    /// Returns a game's files other than its rules, levels, card and witnesses. May remove secrets from the card.
+    /// Returns a game's files other than its rules, levels, card and witnesses. May also remove facts from the card
+    /// that would reveal secrets.
     ///
     /// # Errors
-    /// Returns an error if a file has no canonical JSON.
+    /// Returns an error if a file cannot be written as canonical JSON.
     fn game_files(
         &self,
         _writing: &Writing<'_>,
@@ -146,7 +147,7 @@ pub(crate) trait Section: Sync {
     /// episodes.
     ///
     /// # Errors
-    /// Returns an error if the file has no canonical JSON.
+    /// Returns an error if the file cannot be written as canonical JSON.
     fn summary(
         &self,
         _writing: &Writing<'_>,

@@ -72,7 +72,8 @@ pub(crate) struct Sprite {
     pub(crate) last_corner: (i32, i32),
     /// The creation number, which is never reused.
     pub(crate) id: u32,
-    /// The tick of the last move. The reference's `lastmove` is the current tick minus this one.
+    /// The tick of the last move. The reference's `lastmove` is the current tick minus the tick of the last
+    /// move.
     pub(crate) moved_at: i32,
     pub(crate) time_to_live: i32,
     /// A flicker's age, the number of times that an NPC has repeated its last direction, or the number of

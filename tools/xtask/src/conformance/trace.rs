@@ -134,7 +134,7 @@ fn numbered(mut reader: impl BufRead) -> impl Iterator<Item = NumberedLine> {
 }
 
 fn parse<T: for<'a> Deserialize<'a>>(line: Option<NumberedLine>) -> Result<T, String> {
-    let (number, text) = line.ok_or("the file ends too early")??;
+    let (number, text) = line.ok_or("the file ends before the record is complete")??;
     serde_json::from_str(&text).map_err(|error| format!("line {number}: {error}"))
 }
 

@@ -165,7 +165,7 @@ pub(super) fn adaptive(args: &Args) -> Table {
     let note = format!(
         "{} players each, {PLAYERS} on each of {months} pairs of months of 120 games × 5 levels, which 8 families calibrated with 2 \
          plays of each on a level and {REPLICATES} replicates; one episode on a level. Spread: {EPISODES} episodes, over games \
-         first. Adaptive: the fewest (in tens) whose stated error is at most that. Errors in logits.",
+         first. Adaptive: the smallest number of episodes (in tens) whose stated error is no larger. Errors in logits.",
         months * PLAYERS as u64
     );
     let columns = [

@@ -21,8 +21,8 @@ use std::path::{Path, PathBuf};
 /// Examples: arcade fmt my-game.vgdl > tidy.vgdl, arcade fmt --from py-vgdl aliens.py --out aliens
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game; with --from also a Python
-    /// file with a game in a string
+    /// A .vgdl or .txt file, a folder with game.vgdl or game.txt, or the name of a corpus game; with --from, also a
+    /// Python file that contains a game as a string
     #[arg(value_name = "GAME")]
     game: String,
     /// Do not print the game, and exit with status 1 if the file is not in canonical form

@@ -13,7 +13,7 @@ use pages::{Results, evaluation_report};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Compares the results of evaluations: tables, plots and one page.
+/// Compares the results of evaluations in tables, plots and a single HTML page.
 ///
 /// Every number is recomputed from the logs, whose episodes are replayed. The command writes to DIR: report.html (one
 /// file, for any browser), report.md, report.json, and every table as tables/*.csv and tables/*.tex.

@@ -47,7 +47,7 @@ fn pages() -> Result<Vec<(String, String)>, Failure> {
 }
 
 fn add(command: &Command, pages: &mut Vec<(String, String)>) -> Result<(), Failure> {
-    // A built subcommand has its whole path as its name, such as `arcade-recipes-show`.
+    // The name of a built subcommand is its whole path, such as `arcade-recipes-show`.
     let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
     let mut page = Vec::new();
     let man = Man::new(command.clone()).date("").manual("Infinite Arcade");

@@ -36,7 +36,7 @@ pub(crate) struct Args {
     /// The later snapshot's folder or .tar.zst
     #[arg(value_name = "AFTER", value_parser = crate::paths::release_parser())]
     after: PathBuf,
-    /// Number of pairs of games to list, nearest first
+    /// Number of pairs of games to list, the most similar first
     #[arg(long, value_name = "N", default_value_t = 5)]
     closest: usize,
     #[command(flatten)]

@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Contrasts {
     /// Each pair's comparison on each level.
     pub by_level: Vec<Comparison>,
-    /// Each pair's comparison on each game, over all of its levels.
+    /// Each pair's comparison on each game, over all levels of the game.
     pub by_game: Vec<Comparison>,
     /// Each pair's comparison over all games that both players played.
     pub overall: Vec<OverallComparison>,
@@ -175,8 +175,8 @@ impl Contrasts {
         Contrasts::of(study, &pairs)
     }
 
-    /// Compares each model without and with an aid (an optional part of the prompt), in the same mode. The variant
-    /// without the aid comes first.
+    /// Compares each model with and without an aid (an optional part of the prompt), mode by mode. The variant without
+    /// the aid comes first.
     pub(crate) fn aids(study: &Study) -> Contrasts {
         let players = study.players.iter().enumerate();
         let pairs = players.clone().cartesian_product(players).filter(|((_, without), (_, with))| {

@@ -19,16 +19,16 @@ pub(crate) struct Company {
     patterns: Vec<Vec<String>>,
     /// The scenes (themes) of the games.
     pub(crate) scenes: BTreeSet<String>,
-    /// The number of games in each family of kernels, which are hand-written designs that hardly differ.
+    /// The number of games in each family of kernels (hand-written designs) that hardly differ from each other.
     pub(crate) families: Families,
 }
 
-/// The number of games in each family of kernels, which are hand-written designs that hardly differ.
+/// The number of games in each family of kernels (hand-written designs) that hardly differ from each other.
 #[derive(Clone, Default)]
 pub(crate) struct Families(BTreeMap<String, usize>);
 
 impl Families {
-    /// Returns the number of games from a kernel (hand-written design), or from any kernel that hardly differs from it.
+    /// Returns the number of games from a kernel (hand-written design) and from all kernels that are nearly the same.
     pub(crate) fn games_of(&self, kernel: &str) -> usize {
         self.0.get(KernelGenome::family(kernel)).copied().unwrap_or(0)
     }

@@ -42,7 +42,7 @@ pub const SEALED_FORMAT: u32 = 3;
 pub(crate) const OLDEST_FORMAT: u32 = 1;
 /// The file with the manifest, at the top of the release.
 pub const MANIFEST_FILE: &str = "MANIFEST.json";
-/// The path of the header's leaf, through which the root covers the manifest's header.
+/// The path of the Merkle leaf for the manifest's header. The root covers the header by covering this leaf.
 pub const HEADER_LEAF: &str = "MANIFEST";
 /// The maximum size of a manifest, in bytes: 64 MiB.
 pub const MANIFEST_LIMIT: u64 = 64 << 20;
@@ -167,7 +167,7 @@ impl Manifest {
     /// the bytes of their paths.
     ///
     /// # Errors
-    /// Returns an error if the recipe has no canonical JSON.
+    /// Returns an error if the recipe cannot be written as canonical JSON.
     pub fn leaves(&self) -> Result<Vec<Leaf>, SnapshotError> {
         let header = canonical_digest(&Header {
             format: self.format,
@@ -196,8 +196,8 @@ impl Manifest {
     /// afterwards invalidates the root or the checksum.
     ///
     /// # Errors
-    /// Returns an error if two items have the same path, an item has the path [`HEADER_LEAF`], or the recipe has no
-    /// canonical JSON.
+    /// Returns an error if two items have the same path, an item has the path [`HEADER_LEAF`], or the recipe cannot be
+    /// written as canonical JSON.
     pub fn seal_root(&mut self) -> Result<(), SnapshotError> {
         self.items.sort_by(|a, b| a.path.cmp(&b.path));
         self.root = self.computed_root()?;
@@ -241,7 +241,7 @@ impl Manifest {
         }
         let syntax = |source| SnapshotError::Syntax { path: MANIFEST_FILE.into(), source };
         // The version is read first, because additions in a newer format must not be judged by the rules of
-        // this one.
+        // this format.
         let version: Version = serde_json::from_slice(bytes).map_err(syntax)?;
         if version.format > u64::from(SEALED_FORMAT) && !commits_to_known_format(bytes) {
             return Err(SnapshotError::Format { found: version.format, known: SEALED_FORMAT });
@@ -279,7 +279,7 @@ impl Manifest {
     /// second copy of the text.
     ///
     /// # Errors
-    /// Returns an error if the recipe has no canonical JSON.
+    /// Returns an error if the recipe cannot be written as canonical JSON.
     pub(crate) fn is_text(&self, bytes: &[u8]) -> Result<bool, SnapshotError> {
         Ok(is_canonical_json(self, bytes)?)
     }
@@ -448,7 +448,7 @@ pub(crate) mod tests {
     fn the_format_is_judged_first() {
         refuse(
             r#"{ "format": 7, "novelty": [] }"#,
-            "snapshot format 7 is newer than this arcade understands (3): use a newer arcade",
+            "snapshot format 7 is newer than this version of arcade supports (3): use a newer version",
         );
         refuse(r#"{ "format": 18446744073709551615 }"#, "snapshot format 18446744073709551615 is newer");
         refuse("[7]", "snapshot format 7 is newer");

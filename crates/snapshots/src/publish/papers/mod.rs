@@ -72,7 +72,7 @@ fn citation(manifest: &Manifest) -> String {
          abstract: {}\n\
          authors:\n{authors}\
          identifiers:\n  - type: other\n    value: \"blake3:{}\"\n    \
-         description: \"Root digest: it covers every file of the release but its papers\"\n\
+         description: \"Root digest, which covers every file of the release except those in papers/\"\n\
          license:\n  - MIT\n  - Apache-2.0\n\
          keywords:\n  - benchmark\n  - games\n  - planning\n  - VGDL\n",
         quoted(&cited.title()),

@@ -38,7 +38,7 @@ pub struct Obstacle {
     pub missing: Missing,
 }
 
-/// The first missing requirement of a rule.
+/// The first requirement of a rule that can never be met.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Missing {
     /// The level does not place a sprite of the type, and no rule or existing sprite creates one.
@@ -234,8 +234,8 @@ impl<'a, 'e> Chains<'a, 'e> {
         })
     }
 
-    /// Returns the missing requirement of an interaction. If `target` is given, returns the missing
-    /// requirement for removing the target sprite in its cell. Returns `None` if nothing is proven.
+    /// Returns the first requirement of an interaction that can never be met. If `target` is given, the
+    /// interaction must remove the target sprite in its cell. Returns `None` if nothing is proven.
     fn missing(
         &self,
         encounter: &Encounter,

@@ -210,7 +210,7 @@ impl FloorPlans<'_> {
         rated.is_feasible() && rated.objective >= (pushes as f64 / PERFECT).min(1.0)
     }
 
-    /// Returns the penalty in pushes for halls and isolated wall blocks.
+    /// Returns the penalty for halls and isolated wall blocks, measured in pushes.
     fn tidiness_penalty(&self, floor_plan: &FloorPlan) -> f64 {
         let is_wall = |cell: Option<usize>| cell.is_none_or(|cell| floor_plan.wall & bit(cell) != 0);
         let inner = self.inner();

@@ -48,7 +48,7 @@ pub(crate) struct PromptArgs {
     /// File with advice that prompts include verbatim
     #[arg(long, value_name = "FILE")]
     strategy: Option<PathBuf>,
-    /// Maximum number of tokens in a conversation; the oldest turns beyond it are left out [default: 20000]
+    /// Maximum number of tokens in a conversation; the oldest turns are left out if there are more [default: 20000]
     #[arg(long, value_name = "N")]
     history_tokens: Option<u64>,
 }

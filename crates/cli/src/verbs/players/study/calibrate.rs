@@ -249,13 +249,13 @@ fn check_readers(args: &Args, settings: &Settings, earlier: Option<&ScaleFile>) 
         };
         if !settings.games.iter().any(has_played) {
             bail!(
-                "{name}: it has not played any level of this release; evaluate it on the release, or omit it \
-                 from --readers"
+                "{name} has not played any level of this release; evaluate this reader on the release, or omit \
+                 it from --readers"
             );
         }
         if earlier.is_some_and(|scale| scale.examinees.iter().all(|entry| entry.name != name)) {
             bail!(
-                "{name}: it did not play the first release of the scale, so it isn't an anchor (a reader that \
+                "{name} did not play the first release of the scale, so it is not an anchor (a reader that \
                  plays every release); place it with `arcade study scale`, and omit it from --readers"
             );
         }

@@ -50,7 +50,8 @@ pub(crate) struct Args {
     /// Resume an interrupted mint
     #[arg(long)]
     resume: bool,
-    /// Print the contents and the cost of the mint, but mint nothing. With --resume, only those of the remaining part
+    /// Print the contents and the cost of the mint, but mint nothing. With --resume, print those of the remaining part
+    /// only
     #[arg(long)]
     dry_run: bool,
     /// The previous release's folder. No content of the previous release or an earlier one is minted again

@@ -71,7 +71,7 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
     console.say(format_args!("into {place}"));
     match taken {
         Some(SnapshotError::Occupied(_)) => {
-            console.say(format_args!("which exists: choose another --out, or remove it"));
+            console.say(format_args!("which already exists: choose another --out, or remove that folder"));
         }
         Some(other) => return Err(other.into()),
         None if there > 0 && !resume => {

@@ -119,7 +119,9 @@ fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) ->
             "{shown}; it was drawn for this recipe: write `commitment = \"{commitment}\"` into the recipe, \
              instead of `seed` or, if there is none, above the first [table], and mint it with `{mint}`"
         ),
-        _ => malformed!("{shown}; it belongs to a different recipe or commitment: choose a different --out"),
+        _ => malformed!(
+            "{shown}; this secret belongs to a different recipe or commitment, so choose a different --out"
+        ),
     }
 }
 

@@ -178,14 +178,14 @@ fn say(verification: &Verification, args: &Args, signed: Option<&Signed>, consol
             };
             console.say(format_args!("{name}: the manifest and {files}, {games}, {levels}"));
             console.say(format_args!(
-                "integrity: ok, witnesses: not replayed (needs {newer} semantics {semantics}; this one has {})",
+                "integrity: ok, witnesses: not replayed (needs {newer} semantics {semantics}; this version has {})",
                 engine::SEMANTICS
             ));
             console.say(match args.accept_unreplayed {
                 true => format!("{name}: accepted without replaying its witnesses"),
                 false => format!(
                     "{name}: NOT verified: nothing shows that its levels can be won; use the version of arcade that minted it, or \
-                     accept that with --accept-unreplayed"
+                     pass --accept-unreplayed to accept it without replays"
                 ),
             });
         }
@@ -251,7 +251,7 @@ fn one_line(problem: &str) -> String {
 pub(crate) fn remark_unreplayed(manifest: &Manifest, console: &Console) {
     if manifest.semantics != engine::SEMANTICS {
         console.remark(format_args!(
-            "note: the witnesses of {} were not replayed: they need a version of arcade with semantics {}, and this one has {}",
+            "note: the witnesses of {} were not replayed: they need a version of arcade with semantics {}, and this version has {}",
             manifest.name,
             manifest.semantics,
             engine::SEMANTICS
@@ -309,6 +309,7 @@ fn no_snapshot(path: &Path) -> Failure {
         Ok(_) => "is a file, but not a snapshot archive",
     };
     malformed!(
-        "`{shown}` {what}; a snapshot is a folder with MANIFEST.json, or its .tar.zst from `arcade export`"
+        "`{shown}` {what}; a snapshot is a folder that contains MANIFEST.json, or the .tar.zst that \
+         `arcade export` makes from it"
     )
 }

@@ -124,7 +124,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         let scale = ScaleFile::read(Path::new(file))?;
         if !scale.months.iter().any(|month| month.snapshot == Some(root)) {
             bail!(
-                "`{file}`: the scale has no release with the root of `{name}`, {root}: choose another scale"
+                "`{file}`: the scale has no release with the root of `{name}` ({root}); choose another scale"
             );
         }
         let content = read_bounded(Path::new(file), MAX_SCALE)?;
@@ -191,7 +191,7 @@ fn followed(set: &KeySet, file: &Path) -> Result<(), Failure> {
     let Err(problems) = before.admits(set, found.of(&set.file())) else { return Ok(()) };
     let [group, verb, flag] = ["trust", "keys", "--secret"].map(OsStr::new);
     bail!(
-        "`{}`: readers do not follow this set of keys yet: {}; sign it with `{} FILE...`, then append it",
+        "`{}`: readers do not follow this set of keys yet ({}); sign the set with `{} FILE...`, then append it",
         file.in_message(),
         problems.join("; "),
         shell::command([group, verb, folder.as_os_str(), flag])
@@ -223,7 +223,7 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     let Some(commitment) = recipe.commitment else {
         bail!(
             "{}: the recipe has no `commitment`: draw a secret with `arcade release RECIPE --commit`, and write the line \
-             that it prints into the recipe",
+             that this command prints into the recipe",
             file.in_message()
         );
     };
@@ -236,9 +236,9 @@ fn commitment(file: &Path, args: &Args, known: &[Entry], console: &Console) -> R
     });
     if let (Some(earlier), None, false) = (earlier, recipe.parent, args.first) {
         bail!(
-            "{}: the log already has `{earlier}`: pass the release before this one with --parent DIR, as it \
-             was passed to `arcade release --commit`, or pass --first if this one follows none; with a wrong \
-             choice the release could never be appended",
+            "{}: the log already has `{earlier}`: pass the previous release with --parent DIR, as it was \
+             passed to `arcade release --commit`, or pass --first if there is no previous release; after a \
+             wrong choice, the new release could never be appended",
             file.in_message()
         );
     }

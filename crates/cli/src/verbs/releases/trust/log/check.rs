@@ -202,7 +202,7 @@ fn missing(place: &Path, manifest: Manifest, entries: &[Entry]) -> Result<Option
     let fault = match found {
         None => Some(format!("`{shown}`: `{release}` with root {root} is not in the log")),
         Some(Entry::Root { root: logged, .. }) if logged != root => Some(format!(
-            "`{shown}`: its root is {root}, but the log has `{release}` with root {logged}: two releases \
+            "`{shown}` has the root {root}, but the log has `{release}` with root {logged}: two releases \
              have the same name"
         )),
         Some(Entry::Root { parent: a, commitment: b, beacon: c, .. })
@@ -253,8 +253,8 @@ fn replay(folder: &Path, entries: &[Entry], releases: &[Manifest]) -> Result<Rep
         Some(manifest) => replayed.problems.extend(row::not_of(manifest, folder)?),
         None => {
             replayed.note = Some(format!(
-                "`{shown}`: its games were not compared with those of the release `{}`: pass that release \
-                 too, with --release",
+                "`{shown}`: its games were not compared with those of the release `{}`; pass that release \
+                 as well, with --release",
                 again.release
             ));
         }

@@ -55,7 +55,7 @@ pub(super) fn not_of(manifest: &Manifest, folder: &Path) -> Result<Vec<String>, 
         if is_played && !manifest.items.iter().any(|item| item.path == path && item.digest == digest) {
             let (folder, name) = (folder.in_message(), &manifest.name);
             problems.push(format!(
-                "`{folder}`: {path} does not match any file in the release `{name}`: a different game was \
+                "`{folder}`: {path} does not match any file in the release `{name}`, so a different game was \
                  played"
             ));
         }
