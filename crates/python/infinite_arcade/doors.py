@@ -6,6 +6,8 @@ actions of each log are then played
 - with Gymnasium, in a single environment and in a vector of all episodes of a level;
 - with Inspect, by a scripted model that answers with the actions;
 - with ``cmd:``, by a program that sends the actions to ``arcade evaluate``;
+- with the tools of an MCP server, if the extra mcp is installed;
+- with a server for OpenEnv, if the extra openenv is installed;
 - on a Ray cluster, if Ray is installed and ``--ray`` is given.
 
 ``python -m infinite_arcade.doors --count 1000 --ray`` compares 1,000 logs. It requires ``arcade`` and the extras
@@ -15,13 +17,19 @@ gymnasium and inspect.
 from __future__ import annotations
 
 import argparse
+import asyncio
 import json
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
+import time
+import urllib.request
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +37,10 @@ import numpy as np
 
 from .games import Game, load
 
-__all__ = ["Log", "compare", "main", "read_logs", "record"]
+__all__ = ["Log", "compare", "main", "openenv_server", "read_logs", "record"]
+
+#: The maximum number of actions that the comparison sends to the MCP server in one call.
+_ACTIONS_PER_CALL = 5
 
 #: The program that plays logs over standard input and output. It finds the log that matches the rules and the first
 #: board.
@@ -90,8 +101,12 @@ class Log:
 
 def read_logs(results: Path) -> list[Log]:
     """Returns the episodes in a results folder, sorted by name."""
+    return _logs_in(results / "episodes")
+
+
+def _logs_in(folder: Path) -> list[Log]:
     logs = []
-    for path in sorted((results / "episodes").glob("*.jsonl")):
+    for path in sorted(folder.glob("*.jsonl")):
         events = [json.loads(line) for line in path.read_text("utf-8").splitlines()]
         start, steps, end = events[0], [event for event in events if event["event"] == "step"], events[-1]
         logs.append(
@@ -219,6 +234,71 @@ def by_program(
         yield again.end
 
 
+def by_mcp(
+    names: list[str], logs: list[Log], seed: str, max_steps: int, folder: Path
+) -> Iterator[tuple[str, float, str]]:
+    """Plays the logs of one seed with the tools of an MCP server. The server's own logs contain the hashes."""
+    from mcp import ClientSession, StdioServerParameters
+    from mcp.client.stdio import stdio_client
+
+    options = ["--games", ",".join(names), "--seed", seed, "--max-steps", str(max_steps), "--logs", str(folder)]
+    server = StdioServerParameters(command=sys.executable, args=["-m", "infinite_arcade.mcp", "corpus", *options])
+
+    async def play() -> None:
+        async with stdio_client(server) as streams, ClientSession(*streams[:2]) as session:
+            await session.initialize()
+            for log in logs:
+                await session.call_tool("reset", {"game": log.game, "level": log.level})
+                for at in range(0, len(log.actions), _ACTIONS_PER_CALL):
+                    await session.call_tool("act", {"actions": list(log.actions[at : at + _ACTIONS_PER_CALL])})
+
+    asyncio.run(play())
+    for log, again in zip(logs, _logs_in(folder), strict=True):
+        assert (log.key, log.actions, log.hashes) == (again.key, again.actions, again.hashes)
+        yield again.end
+
+
+@contextmanager
+def openenv_server(*arguments: str) -> Iterator[str]:
+    """Runs a server for OpenEnv in a process of its own, and yields its address."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    module = "infinite_arcade_openenv.server.app"
+    command = [sys.executable, "-m", module, *arguments, "--port", str(port)]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    address = f"http://127.0.0.1:{port}"
+    try:
+        for _ in range(600):
+            assert process.poll() is None, f"the server has exited with status {process.returncode}"
+            try:
+                urllib.request.urlopen(f"{address}/health", timeout=5).close()
+                break
+            except OSError:
+                time.sleep(0.1)
+        yield address
+    finally:
+        process.terminate()
+        process.wait(10)
+
+
+def by_openenv(
+    names: list[str], logs: list[Log], seed: str, max_steps: int
+) -> Iterator[tuple[str, float, str]]:
+    """Plays the logs of one seed with a server for OpenEnv."""
+    from infinite_arcade_openenv import ArcadeAction, ArcadeEnv
+
+    arguments = ["corpus", "--games", ",".join(names), "--max-steps", str(max_steps)]
+    with openenv_server(*arguments) as address, ArcadeEnv(base_url=address).sync() as env:
+        for log in logs:
+            env.reset(seed=seed, game=log.game, level=log.level)
+            for action, expected in zip(log.actions, log.hashes, strict=True):
+                env.step(ArcadeAction(action=action))
+                found = env.state()
+                assert found.state_hash == expected, f"{log.game}, level {log.level}: a hash differs"
+            yield found.state_hash, found.score, found.outcome
+
+
 def by_ray(logs: list[Log]) -> Iterator[tuple[str, float, str]]:
     """Plays the logs on a Ray cluster."""
     from . import ray as cluster
@@ -244,6 +324,10 @@ def compare(
         "inspect": lambda: by_inspect(names, logs, seed, max_steps, folder / "inspect"),
         "cmd": lambda: by_program(arcade, names, logs, seed, max_steps, folder / "cmd"),
     }
+    if find_spec("mcp"):
+        doors["mcp"] = lambda: by_mcp(names, logs, seed, max_steps, folder / "mcp")
+    if find_spec("openenv"):
+        doors["openenv"] = lambda: by_openenv(names, logs, seed, max_steps)
     if with_ray:
         doors["ray"] = lambda: by_ray(logs)
     counts = {"command line": len(logs)}

@@ -55,6 +55,7 @@ from ._arguments import Seed, at_least, check_games, check_levels, seed_text
 from ._native import ArcadeError, LogError, __version__
 from .games import Game, corpus as corpus_games, load
 from .questions import Questions, is_right
+from .sessions import facts_of, native_game, open_series, replay_log
 from .snapshots import open_snapshot
 
 __all__ = [
@@ -228,25 +229,22 @@ def samples(
     ids = set[str]()
     for own in games:
         levels = [level for level in own.levels if levels_wanted is None or level.number in levels_wanted]
-        texts = [(level.number, level.text, level.optimal_ticks) for level in levels]
+        facts = facts_of(own, levels, **options)
         by_number = {level.number: level for level in levels}
-        for group, numbers in enumerate(_native.Series.plan(own._native, own.id, texts, track=options["track"])):
+        plan = _native.Series.plan(own._native, own.id, facts["level_texts"], track=options["track"])
+        for group, numbers in enumerate(plan):
             digest = by_number[numbers[-1]].digest
             id = digest if digest not in ids else f"{digest}-{own.id}"
             ids.add(id)
             metadata = {
-                "game": own.id,
+                **facts,
                 "title": own.title,
                 "game_digest": own.digest,
-                "source": own.source,
-                "as_reference": own._native.as_reference,
-                "level_texts": texts,
                 "level_digests": [by_number[number].digest for number in numbers],
                 "levels": numbers,
                 "group": group,
-                **options,
             }
-            request = _series(own._native, metadata, 0).next_request()
+            request = open_series(metadata, 0, game=own._native).next_request()
             if request is None:
                 raise ArcadeError(f"{own.id}, level {numbers[0]}: the game ends before the first action")
             input = [_message(*message) for message in request]
@@ -265,11 +263,10 @@ def play(journal: str | None = None, answer: Answer | None = None) -> Solver:
 
     async def solve(state: TaskState, generate: Generate) -> TaskState:
         options, ask = state.metadata, answer or get_model().generate
-        own = _game_of(options)
         folder = None if journal is None else Path(journal)
         if folder is not None:
             folder.mkdir(parents=True, exist_ok=True)
-        series = _series(own, options, state.epoch - 1, folder)
+        series = open_series(options, state.epoch - 1, folder=folder)
         try:
             while (request := await anyio.to_thread.run_sync(series.next_request)) is not None:
                 state.messages = [_message(*message) for message in request]
@@ -436,33 +433,6 @@ def _numbered(numbers: Numbers) -> list[int] | None:
         raise ValueError(f"`levels` must be numbers, such as 0,1, not {numbers!r}") from None
 
 
-def _series(
-    own: _native.Game, options: dict[str, Any], run: int, folder: Path | None = None
-) -> _native.Series:
-    return _native.Series(
-        own,
-        options["game"],
-        _texts_of(options),
-        group=options["group"],
-        run=run,
-        seed=options["seed"],
-        max_steps=options["max_steps"],
-        commit=options["commit"],
-        track=options["track"],
-        prompts=options["prompts"],
-        reasks=options["reasks"],
-        folder=folder,
-    )
-
-
-def _game_of(options: dict[str, Any]) -> _native.Game:
-    return _native.Game(options["source"], name=options["game"], as_reference=options["as_reference"])
-
-
-def _texts_of(options: dict[str, Any]) -> list[tuple[int, str, int | None]]:
-    return [(number, text, optimal) for number, text, optimal in options["level_texts"]]
-
-
 def _message(role: str, text: str, image: bytes | None) -> ChatMessage:
     match role:
         case "system":
@@ -508,27 +478,15 @@ def _replayed(state: TaskState) -> list[dict[str, Any]]:
         LogError: if a log differs from its replay, or belongs to a different episode.
     """
     options, replayed = state.metadata, list[dict[str, Any]]()
-    own = _game_of(options)
+    own = native_game(options)
     logs: list[dict[str, Any]] = state.store.get(LOGS, [])
     levels = [log["level"] for log in logs]
     if levels != options["levels"][: len(levels)]:
         raise LogError(f"the logs cover the levels {levels}, not {options['levels']}")
     for log in logs:
-        found: dict[str, Any] = json.loads(
-            _native.replay_log(
-                own,
-                options["game"],
-                _texts_of(options),
-                log["log"],
-                level=log["level"],
-                run=state.epoch - 1,
-                seed=options["seed"],
-                max_steps=options["max_steps"],
-                commit=options["commit"],
-                track=options["track"],
-            )
-        )
-        metrics = json.loads(_native.metrics_of_log(own, options["game"], _texts_of(options), log["log"]))
+        found = replay_log(options, log["log"], level=log["level"], run=state.epoch - 1, game=own)
+        texts = [(number, text, optimal) for number, text, optimal in options["level_texts"]]
+        metrics = json.loads(_native.metrics_of_log(own, options["game"], texts, log["log"]))
         practice = bool(log["practice"])
         replayed.append({"level": log["level"], "practice": practice, **found, "metrics": metrics})
     for level in options["levels"][len(levels) :]:

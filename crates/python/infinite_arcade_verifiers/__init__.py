@@ -10,21 +10,17 @@ The package is separate from ``infinite_arcade``, because verifiers finds taskse
 from __future__ import annotations
 
 import asyncio
-import json
 from collections.abc import Iterator
 from typing import Any
 
 import verifiers.v1 as vf
 from verifiers.v1.task import task_key
 
-from infinite_arcade import LogError, _native, corpus, load, open_snapshot
-from infinite_arcade._arguments import check_games, check_levels, seed_text
-from infinite_arcade.games import Game
+from infinite_arcade import LogError
+from infinite_arcade._arguments import check_levels, seed_text
+from infinite_arcade.sessions import CONTEXTUAL, facts_of, games_of, open_series, replay_log
 
 __all__ = ["ArcadeConfig", "ArcadeData", "ArcadeEnv", "ArcadeEnvConfig", "ArcadeTask", "ArcadeTaskset"]
-
-#: Conversations are never truncated, so that training uses exactly the text that the model was shown.
-_PROMPTS = json.dumps({"mode": "contextual", "history_tokens": 1 << 40})
 
 
 class ArcadeConfig(vf.TasksetConfig):
@@ -79,7 +75,7 @@ class ArcadeEnv(vf.Env[ArcadeEnvConfig]):
 
     async def run(self, task: vf.Task, agents: vf.Agents) -> None:
         info = task.data.info
-        series = _series(info)
+        series = open_series(info, info["run"])
         request = await asyncio.to_thread(series.next_request)
         async with agents.player.interaction(task) as interaction:
             segment = await interaction.turn()
@@ -113,26 +109,26 @@ class ArcadeTaskset(vf.Taskset[ArcadeTask, ArcadeConfig]):
             ValueError: if a game or level of the configuration does not exist.
         """
         config = self.config
-        games = _games(config.source, config.games)
+        games = games_of(config.source, config.games)
         check_levels(config.levels, (level.number for game in games for level in game.levels))
         for game in games:
             for level in game.levels:
                 if config.levels is not None and level.number not in config.levels:
                     continue
                 for run in range(config.runs):
-                    info = {
-                        "game": game.id,
-                        "source": game.source,
-                        "level": level.number,
-                        "level_text": level.text,
-                        "optimal_ticks": level.optimal_ticks,
-                        "run": run,
-                        "seed": seed_text(config.seed),
-                        "max_steps": config.max_steps,
-                        "commit": config.commit,
-                        "reasks": config.reasks,
-                    }
-                    request = _series(info).next_request()
+                    # Conversations are never truncated, so that training uses exactly the text that the model was shown.
+                    info = facts_of(
+                        game,
+                        [level],
+                        level=level.number,
+                        run=run,
+                        seed=seed_text(config.seed),
+                        max_steps=config.max_steps,
+                        commit=config.commit,
+                        prompts=CONTEXTUAL,
+                        reasks=config.reasks,
+                    )
+                    request = open_series(info, run, game=game._native).next_request()
                     if request is None:
                         continue
                     [(_, system, _), (_, shown, _)] = request
@@ -152,52 +148,7 @@ def replayed(info: dict[str, Any], log: str) -> dict[str, Any]:
     Raises:
         LogError: if the log differs from its replay, or belongs to a different episode.
     """
-    found: dict[str, Any] = json.loads(
-        _native.replay_log(
-            _native.Game(info["source"]),
-            info["game"],
-            _texts(info),
-            log,
-            level=info["level"],
-            run=info["run"],
-            seed=info["seed"],
-            max_steps=info["max_steps"],
-            commit=info["commit"],
-        )
-    )
+    found = replay_log(info, log, level=info["level"], run=info["run"])
     if not found["ended"] and found["outcome"] != "ongoing":
         raise LogError("the log of a finished episode has no end")
     return found
-
-
-def _texts(info: dict[str, Any]) -> list[tuple[int, str, int | None]]:
-    return [(info["level"], info["level_text"], info["optimal_ticks"])]
-
-
-def _series(info: dict[str, Any]) -> _native.Series:
-    return _native.Series(
-        _native.Game(info["source"]),
-        info["game"],
-        _texts(info),
-        run=info["run"],
-        seed=info["seed"],
-        max_steps=info["max_steps"],
-        commit=info["commit"],
-        prompts=_PROMPTS,
-        reasks=info["reasks"],
-    )
-
-
-def _games(source: str, wanted: list[str] | None) -> list[Game]:
-    if source == "corpus":
-        check_games(wanted, corpus(), "the corpus")
-        return [found.compile() for name, found in corpus().items() if wanted is None or name in wanted]
-    try:
-        release = open_snapshot(source)
-    except _native.ArcadeError:
-        game = load(source)
-        check_games(wanted, [game.id], source)
-        return [game]
-    there = {found.id: found for found in release.games()}
-    check_games(wanted, there, source)
-    return [found.compile() for id, found in there.items() if wanted is None or id in wanted]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 
 from infinite_arcade.doors import compare
@@ -9,4 +10,5 @@ from infinite_arcade.doors import compare
 
 def test_one_score_through_every_door(arcade: Path, tmp_path: Path) -> None:
     counts = compare(arcade, ["hailglass", "heath-fire"], "sample", max_steps=12, folder=tmp_path)
-    assert counts == dict.fromkeys(["command line", "gymnasium", "vector", "inspect", "cmd"], 10)
+    optional = [name for name in ("mcp", "openenv") if find_spec(name)]
+    assert counts == dict.fromkeys(["command line", "gymnasium", "vector", "inspect", "cmd", *optional], 10)

@@ -23,7 +23,8 @@ environment=${1:-target/python}
 export CARGO_INCREMENTAL=0 CARGO_TARGET_DIR="$PWD/target"
 [ -x "$environment/bin/python" ] || python3 -m venv "$environment"
 . "$environment/bin/activate"
-python -m pip install --quiet --disable-pip-version-check ${release:+maturin} 'gymnasium>=1.2,<2' 'inspect-ai>=0.3.200' mypy pytest || {
+python -m pip install --quiet --disable-pip-version-check ${release:+maturin} \
+  'gymnasium>=1.2,<2' 'inspect-ai>=0.3.200' 'mcp>=1.20,<3' mypy pytest || {
   echo "not checked: what the tests need cannot be installed" >&2
   exit 77
 }
