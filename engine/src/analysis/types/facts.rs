@@ -230,7 +230,7 @@ fn is_idle_default(rules: &Rules, symbol: u8) -> bool {
     let others = rules.mapping.iter().zip(0u8..).filter(|(_, other)| is_other(*other));
     let mut others = others.flat_map(|(types, _)| types);
     let is_avatar = |stype: SpriteType| rules.types[stype.index()].class.is_some_and(|c| c.is_avatar());
-    if is_avatar(stype) {
+    if symbol == b'A' && is_avatar(stype) {
         return others.any(|&other| is_avatar(other));
     }
     let name = &rules.types[stype.index()].name;

@@ -120,6 +120,19 @@ fn the_first_termination_that_holds_decides_the_first_tick() {
     assert_eq!(of(&format!("{kinds}; SpriteCounter stype=owl win=False")), over);
 }
 
+/// The available actions do not include pressing no key, which may have a different outcome.
+#[test]
+fn a_first_tick_without_a_key_counts() {
+    let game = game(
+        "gem > Immovable; mist > Immovable; hero > MovingAvatar",
+        "A > mist hero",
+        "hero mist > killSprite",
+        "SpriteCounter stype=hero; SpriteCounter stype=gem win=True",
+    );
+    let over = "the level is over in its first tick: with 0 `gem`, a SpriteCounter holds";
+    assert_eq!(told(&game, "  \n A\n"), over);
+}
+
 #[test]
 fn the_first_tick_may_make_or_remove_what_is_counted() {
     // The hero is beside the egg, and turns it into an owl at once.
@@ -358,10 +371,14 @@ fn continuous_physics_moves_what_faces_somewhere() {
 /// Neither `w` nor `A` is unused merely because the other character also stands for an avatar.
 #[test]
 fn a_wall_may_be_the_avatar() {
-    let source = "BasicGame\n    SpriteSet\n        jar > Immovable\n        wall > HorizontalAvatar\n    LevelMapping\n        j > jar\n    \
-        InteractionSet\n        jar wall > killSprite\n    TerminationSet\n        SpriteCounter stype=jar win=True\n";
-    let game = Game::from_source_as_reference(source).unwrap();
-    let avatars: Vec<&str> =
-        Analysis::of(&game).avatars().iter().map(|avatar| game.name(avatar.stype)).collect();
-    assert_eq!(avatars, ["wall", "avatar"]);
+    for mapping in ["j > jar", "j > jar\n        A > avatar"] {
+        let source = format!(
+            "BasicGame\n    SpriteSet\n        jar > Immovable\n        wall > HorizontalAvatar\n    LevelMapping\n        {mapping}\n    \
+            InteractionSet\n        jar wall > killSprite\n    TerminationSet\n        SpriteCounter stype=jar win=True\n"
+        );
+        let game = Game::from_source_as_reference(&source).unwrap();
+        let analysis = Analysis::of(&game);
+        let avatars: Vec<&str> = analysis.avatars().iter().map(|avatar| game.name(avatar.stype)).collect();
+        assert_eq!(avatars, ["wall", "avatar"], "{mapping}");
+    }
 }
