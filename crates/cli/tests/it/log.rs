@@ -283,7 +283,7 @@ fn a_set_of_keys_that_nobody_follows_is_not_entered() {
     keys(&["--add", "ada=ada.pub"], 0);
     append("trust/keys-1.json", 0, "keys         1");
     keys(&["--add", "bo=bo.pub"], 1);
-    append("trust/keys-2.json", 2, "sign it with `arcade trust keys trust --secret FILE...`, then append it");
+    append("trust/keys-2.json", 2, "sign the set with `arcade trust keys trust --secret FILE...`");
     keys(&["--secret", "ada.key"], 0);
     append("trust/keys-2.json", 0, "keys         2");
 }
