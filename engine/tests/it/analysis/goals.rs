@@ -72,7 +72,7 @@ fn distances_from_goals() {
                 Timeout limit=30 win=False";
     let analysis = Analysis::of(&game(SPRITES, MAPPING, RULES, ends));
     let game = analysis.game();
-    let mut state = game.start(&game.level("Agig\n").unwrap(), base::Seed::from_text("missing"));
+    let mut state = game.start(&game.level("Agig\n").unwrap(), Seed::from_text("missing"));
     let missing = |state: &State| -> Vec<u32> {
         analysis.goals().iter().map(|goal| analysis.missing(goal, state)).collect()
     };
