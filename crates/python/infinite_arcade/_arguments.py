@@ -11,6 +11,9 @@ from typing import Any
 #: itself. Any other text is hashed.
 Seed = str | int
 
+#: Numbers, as a list or as comma-separated text; None for all.
+Numbers = int | str | list[int] | list[str] | None
+
 
 def seed_text(seed: Seed) -> str:
     """Returns the text of a seed.
@@ -73,6 +76,21 @@ def check_games(wanted: Sequence[str] | None, known: Iterable[str], source: str)
         if name not in known:
             hint = did_you_mean(name, known) or f"; the games are {', '.join(known)}"
             raise ValueError(f"there is no game `{name}` in {source}{hint}")
+
+
+def level_numbers(numbers: Numbers) -> list[int] | None:
+    """Returns the numbers as a list, or None for all.
+
+    Raises:
+        ValueError: if a part of the text is not a number.
+    """
+    if numbers is None:
+        return None
+    parts = numbers.split(",") if isinstance(numbers, str) else numbers if isinstance(numbers, list) else [numbers]
+    try:
+        return [int(part) for part in parts]
+    except ValueError:
+        raise ValueError(f"`levels` must be numbers, such as 0,1, not {numbers!r}") from None
 
 
 def check_levels(wanted: Sequence[int] | None, known: Iterable[int]) -> None:

@@ -51,11 +51,11 @@ from inspect_ai.tool import ToolChoice, ToolInfo
 from inspect_ai.util import LimitExceededError
 
 from . import _native
-from ._arguments import Seed, at_least, check_games, check_levels, seed_text
+from ._arguments import Numbers, Seed, at_least, check_games, check_levels, level_numbers, seed_text
 from ._native import ArcadeError, LogError, __version__
 from .games import Game, corpus as corpus_games, load
 from .questions import Questions, is_right
-from .sessions import facts_of, native_game, open_series, replay_log
+from .sessions import facts_of, level_texts, native_game, open_series, replay_log
 from .snapshots import open_snapshot
 
 __all__ = [
@@ -65,7 +65,6 @@ __all__ = [
 
 #: Names or numbers, as a list or as comma-separated text. Inspect passes ``-T games=a,b`` as a list of texts.
 Names = str | list[str] | None
-Numbers = int | str | list[int] | list[str] | None
 
 #: A function that answers a request.
 Answer = Callable[[list[ChatMessage]], Awaitable[ModelOutput]]
@@ -385,7 +384,7 @@ def _task(
     journal: str | None,
     facts: dict[str, Any],
 ) -> Task:
-    levels = _numbered(levels_wanted)
+    levels = level_numbers(levels_wanted)
     check_levels(levels, (level.number for own in games for level in own.levels))
     found = list(samples(games, levels_wanted=levels, options=options))
     if not found:
@@ -421,16 +420,6 @@ def _options(
 
 def _listed(names: Names) -> list[str] | None:
     return names.split(",") if isinstance(names, str) else names
-
-
-def _numbered(numbers: Numbers) -> list[int] | None:
-    if numbers is None:
-        return None
-    parts = numbers.split(",") if isinstance(numbers, str) else numbers if isinstance(numbers, list) else [numbers]
-    try:
-        return [int(part) for part in parts]
-    except ValueError:
-        raise ValueError(f"`levels` must be numbers, such as 0,1, not {numbers!r}") from None
 
 
 def _message(role: str, text: str, image: bytes | None) -> ChatMessage:
@@ -485,8 +474,7 @@ def _replayed(state: TaskState) -> list[dict[str, Any]]:
         raise LogError(f"the logs cover the levels {levels}, not {options['levels']}")
     for log in logs:
         found = replay_log(options, log["log"], level=log["level"], run=state.epoch - 1, game=own)
-        texts = [(number, text, optimal) for number, text, optimal in options["level_texts"]]
-        metrics = json.loads(_native.metrics_of_log(own, options["game"], texts, log["log"]))
+        metrics = json.loads(_native.metrics_of_log(own, options["game"], level_texts(options), log["log"]))
         practice = bool(log["practice"])
         replayed.append({"level": log["level"], "practice": practice, **found, "metrics": metrics})
     for level in options["levels"][len(levels) :]:

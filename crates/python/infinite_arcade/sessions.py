@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _native
-from ._arguments import Seed, at_least, check_games, check_levels, did_you_mean, seed_text
+from ._arguments import Seed, at_least, check_games, check_levels, did_you_mean, level_numbers, seed_text
 from ._native import ArcadeError
 from .games import Game, Level, corpus, load, seed_child, seed_from_text
 from .snapshots import open_snapshot
@@ -33,6 +33,7 @@ __all__ = [
     "add_arguments",
     "facts_of",
     "games_of",
+    "level_texts",
     "native_game",
     "open_series",
     "replay_log",
@@ -72,7 +73,7 @@ def open_series(
     return _native.Series(
         game or native_game(facts),
         facts["game"],
-        _texts(facts),
+        level_texts(facts),
         group=facts.get("group", 0),
         run=run,
         seed=facts["seed"],
@@ -97,7 +98,7 @@ def replay_log(
         _native.replay_log(
             game or native_game(facts),
             facts["game"],
-            _texts(facts),
+            level_texts(facts),
             log,
             level=level,
             run=run,
@@ -110,7 +111,8 @@ def replay_log(
     return found
 
 
-def _texts(facts: dict[str, Any]) -> list[tuple[int, str, int | None]]:
+def level_texts(facts: dict[str, Any]) -> list[tuple[int, str, int | None]]:
+    """Returns the levels of the facts as the extension takes them. JSON turns tuples into lists."""
     return [(number, text, optimal) for number, text, optimal in facts["level_texts"]]
 
 
@@ -247,8 +249,7 @@ def shelf_of(arguments: argparse.Namespace) -> Shelf:
         return Shelf(stream)
     if arguments.stream_seed is not None:
         raise ValueError(f"`{arguments.stream_seed}` is one argument too many; only `stream` takes a seed")
-    levels = [int(level) for level in arguments.levels.split(",")] if arguments.levels else None
-    return Shelf(arguments.source, games=games, levels=levels)
+    return Shelf(arguments.source, games=games, levels=level_numbers(arguments.levels or None))
 
 
 def section(text: str, heading: str) -> str:

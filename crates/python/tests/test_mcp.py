@@ -102,6 +102,7 @@ def test_a_stream_is_played(tmp_path: Path) -> None:
     ("arguments", "message"),
     [
         (["hailgass"], "did you mean the corpus game `hailglass`"),
+        (["hailglass", "--levels", "first"], "`levels` must be numbers, such as 0,1, not 'first'"),
         (["hailglass", "--levels", "9"], "there is no level 9; the levels are"),
         (["stream"], "the seed of the stream is missing"),
         (["hailglass", "seed"], "only `stream` takes a seed"),

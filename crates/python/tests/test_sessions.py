@@ -89,3 +89,9 @@ def test_a_witness_wins_through_text() -> None:
     session = TextSession(game, game.levels[0])
     session.play(item.witness.actions)
     assert (session.outcome, session.history) == ("won", list(item.witness.actions))
+
+
+def test_the_openenv_package_has_the_version_of_the_suite() -> None:
+    folder = Path(__file__).parents[1] / "infinite_arcade_openenv"
+    for file, line in [("openenv.yaml", f"version: {ia.__version__}"), ("pyproject.toml", f'version = "{ia.__version__}"')]:
+        assert line in (folder / file).read_text("utf-8").splitlines()
