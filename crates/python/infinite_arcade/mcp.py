@@ -182,6 +182,8 @@ def main() -> None:
         raise SystemExit(2) from None
     try:
         server_of(player).run()
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None
     finally:
         player.close()
 

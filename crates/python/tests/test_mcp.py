@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import json
+import signal
 import subprocess
 import sys
 from collections.abc import AsyncIterator
@@ -112,3 +114,22 @@ def test_invalid_arguments_end_the_server(arguments: list[str], message: str) ->
     command = [sys.executable, "-m", "infinite_arcade.mcp", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60)
     assert done.returncode == 2 and message in done.stderr
+
+
+def test_an_interrupt_ends_the_server_without_a_traceback(folder: str) -> None:
+    # A shell may start the tests with interrupts ignored, and children inherit that.
+    program = (
+        "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "runpy.run_module('infinite_arcade.mcp', run_name='__main__')"
+    )
+    command = [sys.executable, "-c", program, folder]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as server:
+        assert server.stdin is not None and server.stdout is not None and server.stderr is not None
+        hello = {"protocolVersion": "2025-03-26", "capabilities": {}, "clientInfo": {"name": "test", "version": "1"}}
+        server.stdin.write(json.dumps({"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": hello}) + "\n")
+        server.stdin.flush()
+        assert "infinite-arcade" in server.stdout.readline()
+        server.send_signal(signal.SIGINT)
+        server.stdin.close()
+        assert server.wait(60) == 130 and "Traceback" not in server.stderr.read()

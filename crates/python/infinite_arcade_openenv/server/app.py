@@ -17,6 +17,7 @@ from typing import Any
 from openenv.core.env_server.http_server import create_app
 
 from infinite_arcade import ArcadeError, VgdlError
+from infinite_arcade._arguments import at_least
 from infinite_arcade.sessions import add_arguments, shelf_of
 from infinite_arcade_openenv.models import ArcadeAction, ArcadeObservation, ArcadeState
 from infinite_arcade_openenv.server.environment import ArcadeEnvironment
@@ -26,6 +27,7 @@ __all__ = ["app_of", "main"]
 
 def app_of(arguments: argparse.Namespace) -> Any:
     """Returns the application that serves the requested levels."""
+    at_least(1, sessions=arguments.sessions)
     return create_app(
         partial(ArcadeEnvironment, shelf_of(arguments), max_steps=arguments.max_steps),
         ArcadeAction,
