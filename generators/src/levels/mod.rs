@@ -19,7 +19,9 @@ pub use measures::{LevelMeasure, LevelMeasures};
 pub(crate) use puzzles::fuse::FuseSymbols;
 pub use puzzles::locks::{LockConfig, LockLevel};
 pub use puzzles::yards::{YardConfig, YardLevel};
-pub use puzzles::{PuzzleConfig, PuzzleTarget, PuzzleVariation, StrayConfig, StrayLevel, StrayLevels};
+pub use puzzles::{
+    CarefulPlayer, PuzzleConfig, PuzzleTarget, PuzzleVariation, StrayConfig, StrayLevel, StrayLevels,
+};
 pub use symmetry::LevelSimilarity;
 pub use vary::search::LevelSearch;
 pub use vary::variation::LevelVariation;

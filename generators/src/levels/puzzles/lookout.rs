@@ -179,21 +179,22 @@ impl<M: Moves> Lookout<M> {
         stray: SpriteType,
         seed: Seed,
     ) -> Option<Vec<Action>> {
-        let won = self.play_game(game, level, stray, seed);
+        let won = self.play_game(game, level, stray, 1, seed);
         OTHERS.into_iter().fold(won, |won, patience| {
             won.or_else(|| {
                 self.survival = survival(patience, self.ticks);
-                self.play_game(game, level, stray, seed)
+                self.play_game(game, level, stray, 1, seed)
             })
         })
     }
 
-    /// Plays the game once. Returns the actions if they win.
+    /// Plays the game once, looking every `commit` ticks. Returns the actions if they win.
     pub(crate) fn play_game(
         &self,
         game: &Game,
         level: &Level,
         stray: SpriteType,
+        commit: usize,
         seed: Seed,
     ) -> Option<Vec<Action>> {
         let grid = self.strays.grid;
@@ -204,19 +205,36 @@ impl<M: Moves> Lookout<M> {
         let cell = |(x, y): (i32, i32)| grid.at((x / block) as usize, (y / block) as usize - above);
         let mut place = self.moves.start();
         let mut actions = Vec::new();
-        for tick in 0..self.ticks {
+        while actions.len() < self.ticks {
             let strays: Vec<usize> = state.places(stray).map(cell).collect();
-            let next = self.plan(tick, place, &strays, 1)?[0];
-            let way = self.moves.ways(place).find(|(_, after)| *after == next)?.0;
-            let action = way.map_or(Action::Nil, |way| ACTIONS[way]);
-            actions.push(action);
-            let outcome = game.step(&mut state, action);
-            if outcome != Outcome::Ongoing {
-                return (outcome == Outcome::Won).then_some(actions);
+            let plan = self.plan(actions.len(), place, &strays, commit)?;
+            for action in self.keys(place, &plan)? {
+                actions.push(action);
+                let outcome = game.step(&mut state, action);
+                if outcome != Outcome::Ongoing {
+                    return (outcome == Outcome::Won).then_some(actions);
+                }
             }
-            place = next;
+            place = *plan.last()?;
         }
         None
+    }
+
+    /// Returns the actions of the plan with the highest probability of winning without looking again; `None` if no path
+    /// wins in time.
+    pub(crate) fn blind_plan(&self) -> Option<Vec<Action>> {
+        let start = self.moves.start();
+        self.keys(start, &self.plan(0, start, &self.strays.cells, self.ticks)?)
+    }
+
+    /// Returns the actions that lead from a state through the states of a plan.
+    fn keys(&self, mut place: usize, plan: &[usize]) -> Option<Vec<Action>> {
+        let key = |&next: &usize| {
+            let way = self.moves.ways(place).find(|(_, after)| *after == next)?.0;
+            place = next;
+            Some(way.map_or(Action::Nil, |way| ACTIONS[way]))
+        };
+        plan.iter().map(key).collect()
     }
 
     /// Returns the states in the best plan for the next `commit` ticks, or until the plan wins; `None` if no path wins

@@ -6,5 +6,6 @@ pub(crate) mod lookout;
 mod pushing;
 pub(crate) mod yards;
 
+pub use pushing::careful::CarefulPlayer;
 pub use pushing::strays::{StrayConfig, StrayLevel, StrayLevels};
 pub use pushing::variation::{PuzzleConfig, PuzzleTarget, PuzzleVariation};

@@ -2,6 +2,7 @@
 //! and uses the farthest one as the level.
 
 pub(crate) mod backward;
+pub(crate) mod careful;
 pub(crate) mod floor;
 pub(crate) mod floor_plan;
 pub(crate) mod rules;

@@ -192,6 +192,17 @@ impl StrayLevels {
         lookout.win_game(game, level, stray, seed)
     }
 
+    /// Returns the simulated player of a finished level, given its board without wandering sprites.
+    pub(super) fn finished(
+        &self,
+        board: &str,
+        win: &[Action],
+        cells: Vec<usize>,
+        fuse: usize,
+    ) -> Option<Lookout<Trail>> {
+        self.lookout(&self.calm.level(board).ok()?, win, cells, fuse)
+    }
+
     fn lookout(
         &self,
         calm: &Level,
@@ -331,7 +342,7 @@ mod tests {
             let stray = game.sprite_types().find(|stype| game.name(*stype) == "stray").unwrap();
             let lookout = levels.lookout(&made.calm, &made.solution, made.cells.clone(), made.fuse).unwrap();
             let dice = |play: &u64| seed.child("dice", *play);
-            let wins = (0..PLAYS).filter_map(|play| lookout.play_game(&game, &level, stray, dice(&play)));
+            let wins = (0..PLAYS).filter_map(|play| lookout.play_game(&game, &level, stray, 1, dice(&play)));
             let rate = wins.count() as f64 / PLAYS as f64;
             assert!((rate - looking).abs() < 0.2, "{rate} in the game, {looking} here");
         }

@@ -208,8 +208,9 @@ mod tests {
         let stray = game.sprite_types().find(|stype| game.name(*stype) == "stray").unwrap();
         const PLAYS: u64 = 40;
         let dice = |play: &u64| Seed::from_text("dice").child("play", *play);
-        let won =
-            (0..PLAYS).filter(|play| lookout.play_game(&game, &level, stray, dice(play)).is_some()).count();
+        let won = (0..PLAYS)
+            .filter(|play| lookout.play_game(&game, &level, stray, 1, dice(play)).is_some())
+            .count();
         let rate = won as f64 / PLAYS as f64;
         assert!((rate - expected).abs() < 0.2, "{rate} in the game, {expected} here");
     }
