@@ -94,6 +94,6 @@ pub use recipe::secret::{COMMITS_TO_RECIPE_SINCE, Secret, read_secret};
 pub use sections::frozen::{FrozenGame, JobResult};
 pub use sections::puzzles::{PuzzleKind, PuzzlePart};
 pub use sections::tiers::Tiers;
-pub use sections::{marks, memory};
+pub use sections::{ceilings, marks, memory};
 
 use base::Digest;

@@ -17,7 +17,7 @@ const PARTS: &str = "crates/snapshots/src/recipe/parts.rs";
 const PUZZLES: &str = "crates/snapshots/src/sections/puzzles/mod.rs";
 
 /// The recipe sections, each with its heading, and the file and name of the struct into which the section is parsed.
-const SECTIONS: [(&str, &str, &str); 14] = [
+const SECTIONS: [(&str, &str, &str); 15] = [
     ("The recipe as a whole", "crates/snapshots/src/recipe/mod.rs", "Recipe"),
     ("`[invented]`", PARTS, "InventedPart"),
     ("`[generated]`", PARTS, "GeneratedPart"),
@@ -25,6 +25,7 @@ const SECTIONS: [(&str, &str, &str); 14] = [
     ("`[puzzles]`, `[locks]`, `[yards]`, `[strays]`", PUZZLES, "PuzzlePart"),
     ("`[tiers]`", "crates/snapshots/src/sections/tiers/mod.rs", "Tiers"),
     ("`[marks]`", "crates/snapshots/src/sections/marks/mod.rs", "MarksPart"),
+    ("`[ceilings]`", "crates/snapshots/src/sections/ceilings/mod.rs", "CeilingsPart"),
     ("`[memory]`", "crates/snapshots/src/sections/memory/part.rs", "MemoryPart"),
     ("`[taxonomy]`", PARTS, "Taxonomy"),
     ("`[board]`", "crates/forge/src/games/order.rs", "Board"),

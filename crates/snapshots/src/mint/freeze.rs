@@ -22,8 +22,8 @@ impl FrozenGame {
         let MadeGame { text, card, levels, mut witnesses, .. } = made;
         let paths = witnesses.iter_mut().map(|witness| std::mem::take(&mut witness.path)).collect();
         let levels = levels.iter().map(|found| found.level.to_string()).collect();
-        let (marks, sibling, seconds) = (Vec::new(), None, Vec::new());
-        FrozenGame { text, card, difficulties, levels, witnesses, paths, marks, sibling, seconds }
+        let (marks, ceilings, sibling, seconds) = (Vec::new(), Vec::new(), None, Vec::new());
+        FrozenGame { text, card, difficulties, levels, witnesses, paths, marks, ceilings, sibling, seconds }
     }
 }
 

@@ -519,6 +519,10 @@ mod tests {
             Some("does not have one difficulty per ladder"),
         );
         check(|game| game.marks.push(Vec::new()), same, Some("marks that the recipe does not request"));
+        let ceilings = |game: &mut FrozenGame| {
+            game.ceilings.push(serde_json::from_str("{\"exact\": true, \"ceilings\": []}").unwrap());
+        };
+        check(ceilings, same, Some("ceilings that the recipe does not request"));
         check(|game| game.card.levels[0].difficulty = 1e300, same, Some("level 0: the difficulty 1"));
         check(|game| game.card.levels[0].random.wins = 99, same, Some("`random` has 99 wins"));
         check(

@@ -16,6 +16,7 @@ use crate::recipe::error::RecipeError;
 use crate::recipe::known::Known;
 use crate::recipe::parts::{CorpusPart, GeneratedPart, InventedPart, Taxonomy};
 use crate::recipe::secret::Secret;
+use crate::sections::ceilings::CeilingsPart;
 use crate::sections::marks::MarksPart;
 use crate::sections::memory::part::MemoryPart;
 use crate::sections::puzzles::{PuzzleKind, PuzzlePart};
@@ -87,6 +88,9 @@ pub struct Recipe {
     /// The reference players, which never change. The release contains their results on each level.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<MarksPart>,
+    /// The ceilings: the highest known win rate on each level, by commitment (number of actions per decision).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ceilings: Option<CeilingsPart>,
     /// The secret random choices for memory tests. Each decides between two renamings of a game, or between two wins of
     /// a level.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,5 +1,6 @@
 //! A job's result, as data that can be stored and transferred.
 
+use super::ceilings::LevelCeilings;
 use super::marks::Wins;
 use super::memory::{SecondWin, Sibling};
 use base::SeedStep;
@@ -41,6 +42,9 @@ pub struct FrozenGame {
     /// The reference players' wins on each level; empty if the recipe does not request reference players.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Wins>,
+    /// The highest known win rates on each level; empty if the recipe does not request them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ceilings: Vec<LevelCeilings>,
     /// The game's sibling: a renamed copy that a secret random choice selected to be withheld. `None` if the recipe
     /// does not request siblings, or if the game has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]

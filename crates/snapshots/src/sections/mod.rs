@@ -1,6 +1,7 @@
 //! Recipe sections that add something to a recipe's games. Each section is a module in this folder and an
 //! entry in [`SECTIONS`].
 
+pub mod ceilings;
 pub(crate) mod frozen;
 pub mod marks;
 pub mod memory;
@@ -14,7 +15,7 @@ use section::Section;
 
 /// The sections, in the order in which they process a game. Reference players come last, because they must play the
 /// games under the published names.
-pub(crate) const SECTIONS: [&dyn Section; 7] = [
+pub(crate) const SECTIONS: [&dyn Section; 8] = [
     &tiers::TiersSection,
     &PuzzleKind::Pushing,
     &PuzzleKind::Locks,
@@ -22,6 +23,7 @@ pub(crate) const SECTIONS: [&dyn Section; 7] = [
     &PuzzleKind::Strays,
     &memory::MemorySection,
     &marks::MarksSection,
+    &ceilings::CeilingsSection,
 ];
 
 /// Returns the paths of the files that sections add about the release as a whole.

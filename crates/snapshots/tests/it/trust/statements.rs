@@ -10,6 +10,7 @@ use snapshots::{
     Bounds, COMMITS_TO_RECIPE_SINCE, Draft, ReleaseKind, Reveal, SECRET_FILE, Secret, Verification,
     Witnesses, canary, reveal, verify, verify_within,
 };
+use statistics::{Z95, wilson};
 use std::fs;
 
 /// Changes the file whose path ends with the given text.
@@ -43,6 +44,57 @@ fn manifest_and_recipe_agree() {
     check(
         |release| release.manifest.recipe = json!("a pie"),
         &["the `name` differs from the recipe's", "the `canary` does not match the recipe"],
+    );
+}
+
+/// Adds a request for ceilings to the recipe, and a file with the same number of wins at every commitment.
+fn with_ceilings(release: &mut Small, exact: bool, wins: u64, episodes: u64) {
+    let recipe = &mut release.manifest.recipe;
+    recipe["ceilings"] = json!({ "episodes": 10 });
+    let mark = canary(&Digest::of(&json(recipe)));
+    let old = std::mem::replace(&mut release.manifest.canary, mark.clone());
+    for (_, content) in &mut release.files {
+        *content = String::from_utf8(content.clone()).expect("a text").replace(&old, &mark).into_bytes();
+    }
+    let interval = wilson(wins, episodes, Z95);
+    let interval = if exact { [1.0, 1.0] } else { [interval.low, interval.high] };
+    let ceilings = ["1", "5", "10", "all"].map(|commit| {
+        json!({
+            "commit": commit, "player": "witness", "played": "all", "wins": wins, "episodes": episodes,
+            "rate": wins as f64 / episodes as f64, "interval": interval,
+        })
+    });
+    let card = release.files.iter().find(|(path, _)| path.ends_with("card.json")).expect("a card");
+    let id = card.0.split('/').nth(1).expect("a folder").to_owned();
+    let levels = json!([{ "exact": exact, "ceilings": ceilings }]);
+    let file = json!({
+        "canary": mark, "format": 1, "asked": { "episodes": 10 }, "games": [{ "id": id, "levels": levels }],
+    });
+    release.files.push(("CEILINGS.json".to_owned(), json(&file)));
+}
+
+#[test]
+fn ceilings_fit_the_recipe_and_the_levels() {
+    check(|release| with_ceilings(release, true, 1, 1), &[]);
+    check(
+        |release| {
+            with_ceilings(release, true, 1, 1);
+            release.files.pop();
+        },
+        &["CEILINGS.json: missing, although the recipe requests ceilings"],
+    );
+    check(|release| with_ceilings(release, false, 9, 10), &["level 0: `exact` is wrong"]);
+    check(|release| with_ceilings(release, false, 9, 9), &["the wins and episodes do not match the recipe"]);
+    check(
+        |release| {
+            with_ceilings(release, false, 9, 10);
+            change(release, "CEILINGS.json", |text| text.replacen("\"wins\": 9", "\"wins\": 10", 1));
+        },
+        &["the win rate and its interval do not follow from the wins"],
+    );
+    check(
+        |release| release.files.push(("CEILINGS.json".to_owned(), b"{}".to_vec())),
+        &["CEILINGS.json: not part of a release"],
     );
 }
 
