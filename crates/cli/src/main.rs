@@ -9,6 +9,7 @@
 mod failure;
 
 mod book;
+mod ceilings;
 mod console;
 mod diagnostics;
 mod flags;

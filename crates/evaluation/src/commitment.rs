@@ -33,6 +33,16 @@ impl Commitment {
         }
     }
 
+    /// Returns `true` if a player with this commitment can play every plan of a player that commits to `longer`, because
+    /// it decides whenever that player decides.
+    pub(crate) fn divides(self, longer: Commitment) -> bool {
+        match (self, longer) {
+            (_, Commitment::All) => true,
+            (Commitment::All, Commitment::Actions(_)) => false,
+            (Commitment::Actions(own), Commitment::Actions(longer)) => longer.get() % own.get() == 0,
+        }
+    }
+
     /// Returns the number of actions per decision in the notation used in results, such as `commit=10`, or `None` for
     /// the default.
     pub fn aid(self) -> Option<String> {

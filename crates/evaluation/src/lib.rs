@@ -38,7 +38,7 @@ pub use error::EvaluationError;
 pub use log::{Event, Journal};
 pub use player::{Agent, Choice, Contestant, Halt, Validity};
 pub use run::{Entrant, Evaluation, Settings};
-pub use subject::{LevelMark, Subject, SubjectFacts, SubjectLevel, Unreadable};
+pub use subject::{LevelCeiling, LevelMark, Subject, SubjectFacts, SubjectLevel, Unreadable};
 pub use thought::{AnswerLimit, budget_aid};
 pub use track::{SeriesPlace, Track};
 pub use turn::{Before, LevelEnd, Observed, Played, SeriesView, Turn, is_of_use};

@@ -106,6 +106,9 @@ pub struct SubjectFacts {
     /// The release's reference results for the played levels.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
+    /// The release's ceilings (highest known win rates) for the played levels.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ceilings: Vec<LevelCeiling>,
     /// The name of the game's release.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<String>,
@@ -131,4 +134,20 @@ pub struct LevelMark {
     pub wins: u64,
     /// The number of episodes played.
     pub plays: u64,
+}
+
+/// The highest known win rate on a level at one commitment, as stored in a release.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LevelCeiling {
+    /// The level number.
+    pub level: usize,
+    /// The number of actions that a player commits to at each decision.
+    pub commit: Commitment,
+    /// `true` if the best player wins every episode, because no randomness can occur on the level.
+    pub exact: bool,
+    /// The number of episodes that the best known player won.
+    pub wins: u64,
+    /// The number of episodes that the best known player played.
+    pub episodes: u64,
 }

@@ -44,6 +44,7 @@ pub use intervals::half_point::{DoseTrials, HalfPoint, half_point};
 pub use intervals::over_games::{
     PairedOverGames, RateOverGames, paired_over_games, rate_over_games, share_over_games,
 };
+pub use intervals::ratio::{Bounded, ratio, weighted_mean};
 pub use intervals::wilson::{Interval, Z95, wilson};
 pub use planning::design::{Design, Spread};
 pub use planning::power::{Power, fisher_power};

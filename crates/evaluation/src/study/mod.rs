@@ -26,6 +26,7 @@ pub use episodes::endings::{EndingRow, EndingSummary};
 pub use episodes::failures::{FailureMeasure, FailureMode, OscillationRow, WelchTest};
 pub use episodes::predictions::PredictionRow;
 pub use episodes::scores::{Estimate, Scores, StudyEpisode};
+pub use games::ceilings::{CeilingRow, LeftOut};
 pub use games::difficulty::{DifficultyLabel, DifficultyRow};
 pub use games::marks::MarkRow;
 pub use games::taxonomy::TaxonomyRow;
@@ -39,7 +40,7 @@ pub use players::times::TimeRow;
 pub(crate) use read::persons;
 
 use crate::metrics::EpisodeMetrics;
-use crate::subject::{LevelMark, Subject};
+use crate::subject::{LevelCeiling, LevelMark, Subject};
 use itertools::Itertools;
 use report::Table;
 use serde::Serialize;
@@ -107,6 +108,13 @@ pub struct Study {
     /// if the releases contain no reference results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<MarkRow>,
+    /// The players' win rates relative to the ceilings (highest known win rates) of the levels. The list is empty if the
+    /// releases contain no ceilings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ceilings: Vec<CeilingRow>,
+    /// The levels whose episodes are excluded from all numbers, because no player is known to win them often enough.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<LeftOut>,
     /// The players' predictions of the rules after series of levels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub predictions: Vec<PredictionRow>,
@@ -134,6 +142,9 @@ pub struct StudyGame {
     /// The release's reference results for the levels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<LevelMark>,
+    /// The release's ceilings (highest known win rates) for the levels.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ceilings: Vec<LevelCeiling>,
 }
 
 /// A level of a game in a study.
@@ -158,6 +169,7 @@ impl From<&Subject> for StudyGame {
                 .map(|level| StudyLevel { number: level.number, optimal_ticks: level.optimal_ticks })
                 .collect(),
             marks: subject.facts.marks.clone(),
+            ceilings: subject.facts.ceilings.clone(),
         }
     }
 }
@@ -178,6 +190,8 @@ impl Study {
             let (practised, counted): (Vec<_>, Vec<_>) =
                 episodes.into_iter().partition(EpisodeMetrics::is_practice);
             practice += practised.len();
+            let (counted, left_out) = games::ceilings::sorted(&study.games, player, counted);
+            study.left_out.extend(left_out);
             counted.into_iter().for_each(|metrics| study.add(player, metrics));
         }
         if practice > 0 {
@@ -185,6 +199,7 @@ impl Study {
                 "{practice} episodes on the first level of a series are for practice, and are excluded from all numbers."
             ));
         }
+        study.notes.extend(games::ceilings::notes(&study));
         study.episodes.sort_by_key(|episode| (place(episode), episode.metrics.run));
         episodes::scores::normalise(&mut study.episodes);
         study.note();
@@ -210,6 +225,7 @@ impl Study {
         study.horizons = players::horizon::commitment::horizons(&study);
         study.thinking = players::horizon::thinking::rows(&study);
         study.marks = games::marks::rows(&study);
+        study.ceilings = games::ceilings::rows(&study);
         study.predictions = episodes::predictions::rows(&study);
         study.power = comparisons::power::of_study(&study);
         study
@@ -327,6 +343,7 @@ impl Study {
         let mut tables = players::leaderboard::tables(self);
         tables.extend(players::horizon::commitment::table(self));
         tables.extend(players::horizon::thinking::table(self));
+        tables.extend(games::ceilings::table(self));
         tables.extend(games::marks::table(self));
         tables.extend(episodes::predictions::table(self));
         tables.extend(episodes::endings::tables(self));

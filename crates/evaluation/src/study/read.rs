@@ -227,6 +227,11 @@ impl Names {
                 known.game.marks.push(mark.clone());
             }
         }
+        for ceiling in &subject.facts.ceilings {
+            if !known.game.ceilings.contains(ceiling) {
+                known.game.ceilings.push(ceiling.clone());
+            }
+        }
         Ok(surface)
     }
 

@@ -60,6 +60,14 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     thinking.tables = of(&["thinking"]);
     let thinking = Some(thinking).filter(|section| !section.tables.is_empty());
 
+    let mut ceilings = Section::new(
+        "ceilings",
+        "Compared with the ceilings of the levels",
+        "Win rates relative to the highest known win rates at the same commitment.",
+    );
+    ceilings.tables = of(&["ceilings"]);
+    let ceilings = Some(ceilings).filter(|section| !section.tables.is_empty());
+
     let mut marks = Section::new(
         "marks",
         "Compared with the marks of the release",
@@ -131,7 +139,7 @@ pub(super) fn all(study: &Study, tables: &[Table]) -> (Vec<Section>, String) {
     let mut answers = Section::new("answers", "Answers, failures and times", "");
     answers.tables = of(&["answers", "times"]);
 
-    let first = std::iter::once(leaders).chain(horizons).chain(thinking).chain(marks);
+    let first = std::iter::once(leaders).chain(horizons).chain(thinking).chain(ceilings).chain(marks);
     let others = [kinds, losses, levels, games, pairs, modes, aids, walked, correlations, answers];
     (first.chain(others).collect(), rules)
 }

@@ -5,4 +5,5 @@ pub(crate) mod clustered;
 pub(crate) mod difference;
 pub(crate) mod half_point;
 pub(crate) mod over_games;
+pub(crate) mod ratio;
 pub(crate) mod wilson;

@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
     }
     let study = Study::read(&args.results)?;
-    if study.episodes.is_empty() {
+    if study.episodes.is_empty() && study.left_out.is_empty() {
         bail!(
             "these results do not contain any played episodes yet; `arcade evaluate … --resume` plays them"
         );

@@ -2,6 +2,7 @@
 
 use crate::commitment::Commitment;
 use crate::study::episodes::scores::Estimate;
+use crate::study::games::ceilings;
 use crate::study::{LEVEL, Player, Study};
 use report::{Table, TableCell};
 use serde::Serialize;
@@ -40,9 +41,12 @@ pub(in crate::study) fn rows(study: &Study) -> Vec<MarkRow> {
     let mut tiers: BTreeMap<(usize, usize), u8> = BTreeMap::new();
     let played: BTreeSet<(usize, usize)> =
         study.episodes.iter().map(|episode| (episode.game, episode.metrics.level)).collect();
-    for (game, marks) in study.games.iter().map(|game| &game.marks).enumerate() {
-        for mark in marks.iter().filter(|mark| played.contains(&(game, mark.level))) {
+    for (game, of_game) in study.games.iter().enumerate() {
+        for mark in of_game.marks.iter().filter(|mark| played.contains(&(game, mark.level))) {
             tiers.insert((game, mark.level), mark.tier);
+            if !ceilings::counts(of_game, mark.level, mark.commit) {
+                continue;
+            }
             let counts = found.entry((mark.tier, mark.commit, true, mark.player.clone())).or_default();
             counts.insert((game, mark.level), (mark.wins, mark.plays));
         }

@@ -1,5 +1,6 @@
 //! Tests of the metrics of episodes and studies.
 
+mod ceilings;
 mod endings;
 mod folders;
 mod honest;

@@ -1,5 +1,6 @@
 //! An evaluation's subjects: the games in a snapshot, or games specified by the user.
 
+use crate::ceilings;
 use crate::diagnostics;
 use crate::diagnostics::Named;
 use crate::failure::Failure;
@@ -15,6 +16,7 @@ use engine::{MAX_LEVEL_TEXT, MAX_SOURCE};
 use evaluation::{Subject, SubjectFacts, Unreadable};
 use forge::card::Card;
 use snapshots::archive::{Archive, is_archive};
+use snapshots::ceilings::Ceilings;
 use snapshots::marks::Marks;
 use snapshots::{Integrity, MANIFEST_FILE, check_integrity};
 use std::collections::BTreeSet;
@@ -27,8 +29,8 @@ const MAX_LISTED: usize = 12;
 /// kilobytes.
 const MAX_CARD: usize = 1 << 24;
 
-/// The maximum size of the file with a release's stored results of reference players, in bytes.
-const MAX_MARKS: usize = 1 << 26;
+/// The maximum size of a file about all levels of a release, such as its marks or its ceilings, in bytes.
+const MAX_SUMMARY: usize = 1 << 26;
 
 /// The games specified by the user, and the selection to play.
 pub(crate) struct Wanted<'a> {
@@ -196,11 +198,14 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
         let (id, file) = item.path.strip_prefix("games/")?.split_once('/')?;
         (file == "card.json").then_some(id)
     });
-    // A sealed release withholds the stored results of reference players, and results in a different version's format
-    // cannot be read. Both count as missing.
-    let path = Marks::path_in(manifest);
-    let marks = path.filter(|path| files.has(path)).map(|path| files.text(&path, MAX_MARKS)).transpose()?;
-    let marks = marks.and_then(|text| Marks::read(text.as_bytes()).ok());
+    // A sealed release withholds its marks and ceilings, and files in a different version's format cannot be read. Both
+    // count as missing.
+    let summary = |path: Option<String>| -> Result<Option<String>, Failure> {
+        path.filter(|path| files.has(path)).map(|path| files.text(&path, MAX_SUMMARY)).transpose()
+    };
+    let marks = summary(Marks::path_in(manifest))?.and_then(|text| Marks::read(text.as_bytes()).ok());
+    let ceilings = summary(Ceilings::path_in(manifest))?;
+    let ceilings = ceilings.and_then(|text| Ceilings::read(text.as_bytes()).ok());
     let mut games = Vec::new();
     for id in ids {
         let path = |file: &str| format!("games/{id}/{file}");
@@ -218,6 +223,8 @@ fn of_snapshot(place: &Path, args: &Wanted<'_>) -> Result<(String, Digest, Vec<S
             SubjectFacts { title: card.title.clone(), kind: card.kind.clone(), ..SubjectFacts::default() };
         facts.marks = marks.iter().flat_map(|marks| marks::of_game(marks, id)).collect();
         facts.marks.retain(|mark| args.wants(mark.level));
+        facts.ceilings = ceilings.iter().flat_map(|ceilings| ceilings::of_game(ceilings, id)).collect();
+        facts.ceilings.retain(|ceiling| args.wants(ceiling.level));
         let wins = card.levels.iter().enumerate().filter(|(number, _)| args.wants(*number));
         let wins = wins.map(|(number, level)| (number, level.optimal_ticks.unwrap_or(level.witness_ticks)));
         facts.release = Some(manifest.name.clone());
