@@ -99,13 +99,16 @@ pub(in crate::study) fn sorted(
     (counted, left_out.into_values().collect())
 }
 
+/// Ceilings by game and level.
+type Named<'a> = BTreeMap<(&'a str, usize), f64>;
+
 /// Returns a note for each commitment at which levels do not count, with the names and the ceilings of the levels.
 pub(in crate::study) fn notes(study: &Study) -> Vec<String> {
-    let mut levels: BTreeMap<(Commitment, Commitment), BTreeMap<(&str, usize), f64>> = BTreeMap::new();
+    let mut levels: BTreeMap<(Commitment, Commitment), Named<'_>> = BTreeMap::new();
     for LeftOut { game, level, commit, measured, ceiling, .. } in &study.left_out {
         levels.entry((*commit, *measured)).or_default().insert((game, *level), *ceiling);
     }
-    let note = |((commit, measured), levels): (_, BTreeMap<(&str, usize), f64>)| {
+    let note = |((commit, measured), levels): (_, Named<'_>)| {
         let mut named =
             levels.iter().map(|((game, level), ceiling)| format!("{game}-{level} ({ceiling:.2})"));
         let named = named.join(", ");
