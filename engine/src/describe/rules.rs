@@ -162,7 +162,7 @@ pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
 }
 
 /// Returns one line, with all members, for each group that an interaction, a chaser or a fleeing sprite
-/// refers to.
+/// refers to. A group whose own sprites can occur is one of its members.
 pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
     let game = analysis.game();
     let follows = |follower: SpriteType, stype: SpriteType| {
@@ -183,11 +183,10 @@ pub(super) fn groups(analysis: &Analysis) -> Vec<String> {
         let inner = |member: &SpriteType| {
             members.iter().any(|other| other != member && path(*member).contains(other))
         };
-        let top: Vec<Party> = members
-            .iter()
-            .filter(|member| !inner(member))
-            .map(|&member| Party::of(analysis, member))
-            .collect();
+        let own = Party { name: format!("the {}", game.name(stype)), you: false };
+        let own = analysis.facts(stype).possible.then_some(own);
+        let top = members.iter().filter(|member| !inner(member)).map(|&member| Party::of(analysis, member));
+        let top: Vec<Party> = own.into_iter().chain(top).collect();
         Some(Phrase::Group.with(&[("name", game.name(stype)), ("members", &Party::any(&top).name)]))
     };
     game.sprite_types().filter_map(group).collect()

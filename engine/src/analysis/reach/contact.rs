@@ -113,6 +113,7 @@ impl Model<'_> {
         let at = one.index();
         let two = meeting.two();
         let partner = two.map_or_else(Mobility::default, |two| self.mobility[two.index()]);
+        let partner_facing = two.map_or_else(Directions::default, |two| self.facing_in_collision(two));
         let own = self.mobility[at];
         let mut new = own;
         if let Some(turn) = summary.turn {
@@ -139,7 +140,7 @@ impl Model<'_> {
             self.turn(one, to, summary.forces_orientation);
             if summary.takes_orientation {
                 let next = &mut self.mobility[to.index()];
-                next.facing = next.facing.with(partner.facing.mirrored());
+                next.facing = next.facing.with(partner_facing.mirrored());
             }
         }
         if let Some((from, to)) = all {
@@ -160,23 +161,23 @@ impl Model<'_> {
     /// Applies a turn to a sprite of type `one`. `two` is the type of the sprite that it collides with, if
     /// any.
     fn face(&self, one: SpriteType, two: Option<SpriteType>, turn: Turn, new: &mut Mobility) {
-        let own = self.of_type(one);
+        let own = self.facing_in_collision(one);
         let partner = two.map_or_else(Mobility::default, |two| *self.of_type(two));
         let facing = match turn {
-            Turn::Back => own.facing.mirrored(),
+            Turn::Back => own.mirrored(),
             Turn::AnyOfFour => Directions::FOUR,
             Turn::Any => Directions::ALL,
-            Turn::OffWall if own.facing.meets(Directions::ASKEW) => Directions::ALL,
-            Turn::OffWall => own.facing.mirrored().with(Directions::UNSET),
-            Turn::OfPartner => partner.facing,
+            Turn::OffWall if own.meets(Directions::ASKEW) => Directions::ALL,
+            Turn::OffWall => own.mirrored().with(Directions::UNSET),
+            Turn::OfPartner => two.map_or(Directions::NONE, |two| self.facing_in_collision(two)),
             Turn::OfPush => self.pushed(&partner).with(Directions::UNSET),
-            Turn::OfRide => Directions::UNSET.with(own.facing),
+            Turn::OfRide => Directions::UNSET.with(own),
             Turn::OfExit => {
                 let mut exits = self.exits_of(two).peekable();
                 if exits.peek().is_none() {
                     return;
                 }
-                exits.fold(Directions::NONE, |all, exit| all.with(exit.facing))
+                exits.fold(Directions::NONE, |all, exit| all.with(self.facing_in_collision(exit)))
             }
         };
         new.facing = new.facing.with(facing);
@@ -246,28 +247,28 @@ impl Model<'_> {
                 (new.placed, new.moved_any_distance) = (new.placed | onto, new.moved_any_distance | onto);
                 self.carry(one, two, new);
             }
-            Displacement::Exit => self.exits_of(two).for_each(|exit| put(new, exit.off_grid)),
+            Displacement::Exit => self.exits_of(two).for_each(|exit| put(new, self.of_type(exit).off_grid)),
         }
     }
 
-    /// Returns the mobility of the exits to which a type leads.
-    fn exits_of(&self, two: Option<SpriteType>) -> impl Iterator<Item = &Mobility> {
+    /// Returns the exits to which a type leads.
+    fn exits_of(&self, two: Option<SpriteType>) -> impl Iterator<Item = SpriteType> {
         let exits = two.map_or(&[][..], |two| &self.exits[two.index()]);
-        exits.iter().filter(|exit| self.exists[exit.index()]).map(|&exit| self.of_type(exit))
+        exits.iter().copied().filter(|exit| self.exists[exit.index()])
     }
 
     /// Turns one type into another, which inherits its position and optionally its orientation.
     fn turn(&mut self, from: SpriteType, to: SpriteType, force: bool) {
         // A sprite that is transformed a second time and then moved back returns to its original position.
         self.mobility[from.index()].goes_back |= self.mobility[to.index()].goes_back;
-        let old = self.mobility[from.index()];
+        let (old, old_facing) = (self.mobility[from.index()], self.facing_in_collision(from));
         let oriented = self.info(from).traits.is_oriented && self.info(to).traits.is_oriented;
         let takes = force || (oriented && self.info(to).traits.orientation == Direction::NONE);
         let new = &mut self.mobility[to.index()];
         new.off_grid |= old.off_grid;
         new.moved = new.moved.with(old.moved);
         if takes {
-            new.facing = new.facing.with(old.facing);
+            new.facing = new.facing.with(old_facing);
         }
         // For a moment, the sprite combines the last move of the old type with the orientation of the new
         // type.

@@ -105,10 +105,23 @@ impl Model<'_> {
 
     /// Returns the possible directions of a new sprite of the type, unless something else determines them.
     pub(super) fn born(&self, stype: SpriteType) -> Directions {
+        if self.draws(stype) { Directions::FOUR } else { Directions::of(self.info(stype).traits.orientation) }
+    }
+
+    /// Returns `true` if sprites of the type draw their direction in their first update. Until then, their
+    /// orientation is [`Direction::NIL`], which is diagonal.
+    fn draws(&self, stype: SpriteType) -> bool {
         let info = self.info(stype);
-        let draws =
-            info.class == Some(SpriteClass::RandomMissile) && info.traits.orientation == Direction::NIL;
-        if draws { Directions::FOUR } else { Directions::of(info.traits.orientation) }
+        info.class == Some(SpriteClass::RandomMissile) && info.traits.orientation == Direction::NIL
+    }
+
+    /// Returns the orientations that a sprite of the type can have when it collides, possibly before its first
+    /// update.
+    pub(super) fn facing_in_collision(&self, stype: SpriteType) -> Directions {
+        let facing = self.of_type(stype).facing;
+        // The sprites that a level places are updated before their first collision.
+        let draws_later = self.draws(stype) && self.made[stype.index()];
+        if draws_later { facing.with(Directions::ASKEW) } else { facing }
     }
 
     /// Computes how far and in which directions a type's own update moves its sprites.

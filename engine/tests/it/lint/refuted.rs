@@ -382,3 +382,35 @@ fn a_wall_may_be_the_avatar() {
         assert_eq!(avatars, ["wall", "avatar"], "{mapping}");
     }
 }
+
+/// A sprite that a level places may have the type of a group.
+#[test]
+fn a_group_may_be_one_of_its_members() {
+    let game = Game::from_source_as_reference(
+        "BasicGame\n    SpriteSet\n        crate > Immovable\n        beast > Missile\n            ox > Immovable\n    LevelMapping\n        \
+         c > crate\n        b > beast\n        o > ox\n    InteractionSet\n        beast crate > killSprite\n    TerminationSet\n",
+    )
+    .unwrap();
+    let text = describe(&game);
+    assert!(text.contains("Any beast means the beast or ox."), "{text}");
+}
+
+/// Before its first update, a new `RandomMissile` has the direction (−1, −1). If it is turned back before that update,
+/// it moves diagonally.
+#[test]
+fn a_new_random_missile_may_move_diagonally() {
+    let game = Game::from_source(
+        "BasicGame\n    SpriteSet\n        spark > RandomMissile\n        fuse > Immovable\n    LevelMapping\n        s > spark\n        f > fuse\n    \
+         InteractionSet\n        fuse TIME > transformToAll stype=fuse stypeTo=spark\n        spark fuse > reverseDirection\n    TerminationSet\n",
+    )
+    .unwrap();
+    let level = game.level("sA\nf \n  \n").unwrap();
+    let spark = game.sprite_type("spark").unwrap();
+    let mut state = game.start(&level, Seed::from_text("diagonal"));
+    for _ in 0..3 {
+        game.step(&mut state, Action::Nil);
+    }
+    let block = state.block();
+    assert!(state.places(spark).any(|place| place == (block, 2 * block)));
+    assert!(Analysis::of(&game).reach(&level).can_be(spark, 5));
+}
