@@ -1,5 +1,5 @@
 //! Generates yards (puzzles about carrying parcels) that meet a target, and writes each game with its levels to its own
-//! folder. Prints the win rates of a simulated player, by the number of actions between two looks at the board.
+//! folder. Prints the length of each win.
 //!
 //! ```sh
 //! cargo run --release -p infinite-arcade-generators --example yards -- OUT LEVELS LEAST MOST SIDE [RULES]...
@@ -13,9 +13,6 @@ use infinite_arcade_generators::games::YardRules;
 use infinite_arcade_generators::levels::YardConfig;
 use std::fs;
 use std::path::Path;
-
-/// The numbers of actions between two looks. The last number exceeds the length of any level.
-const COMMITMENTS: [usize; 6] = [1, 2, 5, 10, 20, 1000];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -37,15 +34,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         fs::create_dir_all(&folder)?;
         fs::write(folder.join("game.vgdl"), syntax::print(rules.game().description()))?;
         let sizes = YardConfig { columns: (side, side), rows: (side, side), ..YardConfig::default() };
-        let config = YardConfig { decisions, commitments: COMMITMENTS.to_vec(), ..sizes };
+        let config = YardConfig { decisions, ..sizes };
         let mut made = 0;
         for number in 0..levels {
             let Some(level) = config.level(rules, Seed::from_text("yards").child(&name, number)) else {
                 continue;
             };
-            let chances: Vec<String> =
-                level.chances.iter().map(|chance| format!("{:.0}", 100.0 * chance)).collect();
-            println!("{name} {made}: {} ticks; won in percent: {}", level.solution.len(), chances.join(" "));
+            println!("{name} {made}: {} ticks", level.solution.len());
             fs::write(folder.join(format!("lvl{made}.txt")), level.text)?;
             made += 1;
         }

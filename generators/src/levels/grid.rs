@@ -1,10 +1,13 @@
 //! The board as a graph of cells. A cell is given by its row-major index.
 
 use base::Sampler;
+use engine::Action;
 use std::collections::VecDeque;
 
 /// The steps up, left, down and right: (columns, rows).
 pub(crate) const WAYS: [(i32, i32); 4] = [(0, -1), (-1, 0), (0, 1), (1, 0)];
+/// The actions for the steps in [`WAYS`].
+pub(crate) const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 /// The offsets of the eight surrounding cells, clockwise from the top.
 const AROUND: [(i32, i32); 8] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
 /// The distance assigned to unreachable cells.

@@ -2,7 +2,6 @@
 
 pub(crate) mod fuse;
 pub(crate) mod locks;
-pub(crate) mod lookout;
 mod pushing;
 pub(crate) mod yards;
 

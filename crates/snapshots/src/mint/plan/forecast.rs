@@ -93,9 +93,7 @@ impl Plan<'_> {
             Job::Constructive(_) => (new, false),
             Job::Invented(..) => (self.recipe.invented.as_ref().map_or(0, |part| part.levels), false),
             Job::Corpus(_) => (old, false),
-            Job::Puzzle(kind, _) => {
-                (puzzle_levels(kind), !matches!(kind, PuzzleKind::Yards | PuzzleKind::Strays))
-            }
+            Job::Puzzle(kind, _) => (puzzle_levels(kind), kind != PuzzleKind::Strays),
         };
         let criteria = self.criteria_of(job);
         let made = match job {

@@ -4,7 +4,7 @@ mod layout;
 mod walk;
 
 use crate::games::LockRules;
-use crate::levels::grid::Grid;
+use crate::levels::grid::{ACTIONS, Grid};
 use crate::{Annealing, AnnealingConfig, Evaluation, Search};
 use base::Seed;
 use engine::Action;
@@ -88,9 +88,6 @@ impl LockConfig {
         Evaluation { feasibility: 1.0, objective: 0.8 * long + 0.2 * dead, measures: Vec::new() }
     }
 }
-
-/// The actions for the steps up, left, down and right.
-const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
 
 /// Returns the numbers of items for a board of the given size.
 fn furniture(rules: LockRules, grid: Grid) -> Furniture {

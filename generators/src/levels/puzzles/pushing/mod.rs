@@ -5,6 +5,7 @@ pub(crate) mod backward;
 pub(crate) mod careful;
 pub(crate) mod floor;
 pub(crate) mod floor_plan;
+pub(crate) mod lookout;
 pub(crate) mod rules;
 pub(crate) mod strays;
 #[cfg(test)]

@@ -2,13 +2,13 @@
 //! board before walking.
 
 use super::floor_plan::{FloorPlan, Position, Pushing, bit, each};
+use super::lookout::{Lookout, Strays};
 use super::rules::{Destination, KINDS, Rules};
 use super::trail::Trail;
 use crate::games::PushRules;
-use crate::levels::grid::{Grid, WAYS};
+use crate::levels::grid::{ACTIONS, Grid, WAYS};
 use crate::levels::palette::Palette;
 use crate::levels::puzzles::fuse;
-use crate::levels::puzzles::lookout::{ACTIONS, Lookout, Strays};
 use base::{Sampler, Seed};
 use engine::{Action, Analysis, Game, Level, SpriteType};
 
@@ -26,9 +26,9 @@ base::with_defaults! {
         pub decisions: (usize, usize) = (50, 120),
         /// The minimum and maximum number of wandering deadly sprites. A level gets the largest number that keeps it
         /// fair.
-        pub strays: (usize, usize) = (3, 10),
+        pub strays: (usize, usize) = (2, 10),
         /// The minimum fraction of episodes won by a simulated player that looks at the board before every action.
-        pub fairness: f64 = 0.4,
+        pub fairness: f64 = 0.9,
         /// The commitments for which the simulated player's win rate is measured. A commitment is the number of ticks
         /// between two looks at the board.
         pub commitments: Vec<usize> = Vec::new(),
@@ -199,17 +199,11 @@ impl StrayLevels {
         win: &[Action],
         cells: Vec<usize>,
         fuse: usize,
-    ) -> Option<Lookout<Trail>> {
+    ) -> Option<Lookout> {
         self.lookout(&self.calm.level(board).ok()?, win, cells, fuse)
     }
 
-    fn lookout(
-        &self,
-        calm: &Level,
-        solution: &[Action],
-        cells: Vec<usize>,
-        fuse: usize,
-    ) -> Option<Lookout<Trail>> {
+    fn lookout(&self, calm: &Level, solution: &[Action], cells: Vec<usize>, fuse: usize) -> Option<Lookout> {
         let trail = Trail::of(&self.calm, calm, solution)?;
         let grid = Grid { columns: calm.columns(), rows: calm.rows() };
         let is_floor = calm.cells().iter().map(|&symbol| char::from(symbol) != PushRules::WALL).collect();

@@ -1,8 +1,7 @@
 //! The trail of a win in a pushing puzzle. Between the pushes of the win, the avatar may rest and walk around.
 
 use crate::games::PushRules;
-use crate::levels::grid::{Grid, WAYS};
-use crate::levels::puzzles::lookout::{ACTIONS, Moves};
+use crate::levels::grid::{ACTIONS, Grid, WAYS};
 use base::Seed;
 use engine::{Action, Game, Level, Outcome, SpriteType, State};
 
@@ -60,31 +59,30 @@ impl Trail {
         }
         None
     }
-}
 
-impl Moves for Trail {
-    fn states(&self) -> usize {
+    /// Returns the number of states.
+    pub(super) fn states(&self) -> usize {
         (self.pushes.len() + 1) * self.grid.len()
     }
 
-    fn start(&self) -> usize {
+    /// Returns the initial state.
+    pub(super) fn start(&self) -> usize {
         self.start
     }
 
-    fn cell(&self, state: usize) -> usize {
+    /// Returns the avatar's cell in a state.
+    pub(super) fn cell(&self, state: usize) -> usize {
         state % self.grid.len()
     }
 
-    fn is_won(&self, state: usize) -> bool {
+    /// Returns `true` if a state is won.
+    pub(super) fn is_won(&self, state: usize) -> bool {
         state / self.grid.len() == self.pushes.len()
     }
 
-    fn is_busy(&self, _tick: usize, _cell: usize) -> bool {
-        false
-    }
-
-    /// Allows only the next push of the win.
-    fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
+    /// Returns the possible steps in a state, each with the state after the step. A step is an index into [`WAYS`], or
+    /// `None` for a rest. The only possible push is the next push of the win.
+    pub(super) fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (pushed, cell) = (state / self.grid.len(), self.cell(state));
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {
             let Some(step) = way else { return Some((way, state)) };

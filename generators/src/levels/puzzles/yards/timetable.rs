@@ -3,7 +3,6 @@
 
 use super::yard::{RIGHT, Sign, Yard, opposite};
 use crate::levels::grid::WAYS;
-use crate::levels::puzzles::lookout::Moves;
 use std::collections::BTreeSet;
 
 /// The cells with carts after each tick.
@@ -83,7 +82,7 @@ impl Timetable {
     pub(super) fn fastest(&self, yard: &Yard, most: usize) -> Option<(Vec<Option<usize>>, Vec<usize>)> {
         let most = most.min(self.ticks());
         let remaining = Remaining::of(yard);
-        let errands = Errands::new(yard, self);
+        let errands = Errands::new(yard);
         let mut seen = vec![u32::MAX; errands.states()];
         // For each tick, the states found, each with the index of its predecessor and the step that led to it.
         let mut layers: Vec<Vec<(u32, u32, Option<usize>)>> = vec![vec![(errands.start() as u32, 0, None)]];
@@ -112,20 +111,19 @@ impl Timetable {
 }
 
 /// The moves of a yard's avatar. A state consists of the avatar's cell, the load, and the set of parcels already taken.
-pub(super) struct Errands<'a> {
+struct Errands<'a> {
     yard: &'a Yard,
-    timetable: &'a Timetable,
     /// For each cell, the index and the kind of its parcel; `None` for cells without a parcel.
     parcels: Vec<Option<(usize, usize)>>,
 }
 
 impl<'a> Errands<'a> {
-    pub(super) fn new(yard: &'a Yard, timetable: &'a Timetable) -> Errands<'a> {
-        let mut parcels = vec![None; timetable.cells];
+    fn new(yard: &'a Yard) -> Errands<'a> {
+        let mut parcels = vec![None; yard.grid.len()];
         for (number, &(cell, kind)) in yard.parcels.iter().enumerate() {
             parcels[cell] = Some((number, kind));
         }
-        Errands { yard, timetable, parcels }
+        Errands { yard, parcels }
     }
 
     /// Returns the number of possible loads: one for no load, and one for each kind of parcel.
@@ -138,27 +136,28 @@ impl<'a> Errands<'a> {
     }
 
     fn pack(&self, cell: usize, load: usize, taken: usize) -> usize {
-        (taken * self.loads() + load) * self.timetable.cells + cell
+        (taken * self.loads() + load) * self.yard.grid.len() + cell
     }
 
     /// Splits a state into the cell, the load and the set of taken parcels.
     fn unpack(&self, state: usize) -> (usize, usize, usize) {
-        let rest = state / self.timetable.cells;
+        let rest = state / self.yard.grid.len();
         (self.cell(state), rest % self.loads(), rest / self.loads())
     }
-}
 
-impl Moves for Errands<'_> {
+    /// Returns the number of states.
     fn states(&self) -> usize {
-        (self.all() + 1) * self.loads() * self.timetable.cells
+        (self.all() + 1) * self.loads() * self.yard.grid.len()
     }
 
+    /// Returns the initial state.
     fn start(&self) -> usize {
         self.pack(self.yard.start, EMPTY, 0)
     }
 
+    /// Returns the avatar's cell in a state.
     fn cell(&self, state: usize) -> usize {
-        state % self.timetable.cells
+        state % self.yard.grid.len()
     }
 
     /// Returns `true` if a state is won, which means that all parcels are at their depots (destinations).
@@ -167,11 +166,8 @@ impl Moves for Errands<'_> {
         taken == self.all() && load == EMPTY
     }
 
-    fn is_busy(&self, tick: usize, cell: usize) -> bool {
-        self.timetable.is_busy(tick, cell)
-    }
-
-    /// Returns the steps from a state, ignoring carts.
+    /// Returns the possible steps in a state, each with the state after the step. A step is an index into [`WAYS`], or
+    /// `None` for a rest. Carts are ignored.
     fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)> {
         let (cell, load, taken) = self.unpack(state);
         (0..WAYS.len()).map(Some).chain([None]).filter_map(move |way| {

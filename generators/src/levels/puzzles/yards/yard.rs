@@ -12,9 +12,6 @@ const WALLS: f64 = 0.14;
 /// The minimum number of cart visits at which a cell counts as busy.
 const OFTEN: u32 = 6;
 
-/// The minimum distance between wandering deadly sprites and the avatar.
-const AWAY: usize = 5;
-
 /// A sign that turns carts entering its cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sign {
@@ -53,7 +50,6 @@ pub(super) struct Cart {
 pub(super) struct Furniture {
     pub(super) carts: usize,
     pub(super) parcels: usize,
-    pub(super) strays: usize,
     /// The minimum total length, in steps, of the walks from each parcel to its depot and back.
     pub(super) steps: usize,
 }
@@ -71,8 +67,6 @@ pub(super) struct Yard {
     pub(super) parcels: Vec<(usize, usize)>,
     /// The cells of the depots (destinations of parcels), by kind.
     pub(super) depots: Vec<usize>,
-    /// The cells of the wandering deadly sprites.
-    pub(super) strays: Vec<usize>,
 }
 
 impl Yard {
@@ -86,7 +80,6 @@ impl Yard {
             start: 0,
             parcels: Vec::new(),
             depots: Vec::new(),
-            strays: Vec::new(),
         };
         let walls = (yard.floor().len() as f64 * WALLS).round() as usize;
         grid.wall_off(&mut yard.is_floor, walls, sampler);
@@ -167,8 +160,8 @@ impl Yard {
         Some(signs[sampler.weighted(&weights)?])
     }
 
-    /// Places depots, the avatar, parcels far from their depots, and wandering deadly sprites, preferably in cells that
-    /// carts visit often. `visits` contains the number of cart visits per cell.
+    /// Places depots, the avatar, and parcels far from their depots, preferably in cells that carts visit often.
+    /// `visits` contains the number of cart visits per cell.
     pub(super) fn furnish(
         &mut self,
         rules: YardRules,
@@ -199,8 +192,6 @@ impl Yard {
             missing = missing.saturating_sub(2 * steps[cell] as usize);
             self.parcels.push((cell, kind));
         }
-        let is_away = |cell: &usize| self.grid.manhattan(self.start, *cell) >= AWAY;
-        self.strays = free.into_iter().filter(is_away).take(furniture.strays).collect();
-        (self.strays.len() == furniture.strays).then_some(())
+        Some(())
     }
 }

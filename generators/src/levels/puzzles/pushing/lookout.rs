@@ -1,7 +1,8 @@
 //! A simulated player among wandering deadly sprites. The player's win rate shows how often a level can be won by
 //! looking at the board often enough.
 
-use crate::levels::grid::{Grid, WAYS};
+use super::trail::Trail;
+use crate::levels::grid::{ACTIONS, Grid, WAYS};
 use base::{Sampler, Seed};
 use engine::{Action, Game, Level, Outcome, SpriteType};
 use std::ops::RangeInclusive;
@@ -19,27 +20,6 @@ const SURVIVAL: f64 = 0.95;
 const OTHERS: [f64; 2] = [0.98, 0.9];
 /// The value for states from which a win is impossible.
 const NEVER: u16 = u16::MAX;
-
-/// The actions for the steps in [`WAYS`].
-pub(crate) const ACTIONS: [Action; 4] = [Action::Up, Action::Left, Action::Down, Action::Right];
-
-/// An avatar's moves among wandering deadly sprites, as a graph of states and steps.
-pub(crate) trait Moves {
-    /// Returns the number of states.
-    fn states(&self) -> usize;
-    /// Returns the initial state.
-    fn start(&self) -> usize;
-    /// Returns the avatar's cell in a state.
-    fn cell(&self, state: usize) -> usize;
-    /// Returns `true` if a state is won.
-    fn is_won(&self, state: usize) -> bool;
-    /// Returns `true` if something other than a wandering sprite would kill the avatar in the given cell after the
-    /// given tick.
-    fn is_busy(&self, tick: usize, cell: usize) -> bool;
-    /// Returns the possible steps in a state, each with the state after the step. A step is an index into [`WAYS`], or
-    /// `None` for a rest.
-    fn ways(&self, state: usize) -> impl Iterator<Item = (Option<usize>, usize)>;
-}
 
 /// The wandering deadly sprites at the start of a level, and the floor on which they wander. Only walls stop them.
 #[derive(Clone, Debug)]
@@ -62,9 +42,9 @@ impl Strays {
 /// A player that knows everything except the future random moves of the wandering sprites. It plans the path with the
 /// highest probability of avoiding them, taking the remaining time into account. Collisions in different ticks are
 /// treated as independent. The resulting win rate is a lower bound on the win rate of an optimal player.
-pub(crate) struct Lookout<M> {
+pub(crate) struct Lookout {
     strays: Strays,
-    moves: M,
+    trail: Trail,
     /// For each state, the states after each step, with their cells.
     steps: Vec<Vec<(usize, usize)>>,
     /// The number of ticks until the time runs out.
@@ -76,33 +56,32 @@ pub(crate) struct Lookout<M> {
     survival: Vec<f64>,
 }
 
-impl<M: Moves> Lookout<M> {
+impl Lookout {
     /// Creates a player. Cost: O(ticks · states) in time and memory.
-    pub(crate) fn new(strays: Strays, moves: M, ticks: usize) -> Lookout<M> {
-        let states = moves.states();
-        let with_cell = |next: usize| (next, moves.cell(next));
+    pub(crate) fn new(strays: Strays, trail: Trail, ticks: usize) -> Lookout {
+        let states = trail.states();
+        let with_cell = |next: usize| (next, trail.cell(next));
         let steps: Vec<Vec<(usize, usize)>> =
-            (0..states).map(|state| moves.ways(state).map(|(_, next)| with_cell(next)).collect()).collect();
+            (0..states).map(|state| trail.ways(state).map(|(_, next)| with_cell(next)).collect()).collect();
         let mut finish = vec![NEVER; (ticks + 1) * states];
         for tick in (0..=ticks).rev() {
             let (now, later) = finish[tick * states..].split_at_mut(states);
             for (state, finish) in now.iter_mut().enumerate() {
-                *finish = if moves.is_won(state) {
+                *finish = if trail.is_won(state) {
                     tick as u16
                 } else if tick == ticks {
                     NEVER
                 } else {
-                    let free = steps[state].iter().filter(|(_, cell)| !moves.is_busy(tick, *cell));
-                    free.map(|(next, _)| later[*next]).min().unwrap_or(NEVER)
+                    steps[state].iter().map(|(next, _)| later[*next]).min().unwrap_or(NEVER)
                 };
             }
         }
-        Lookout { strays, moves, steps, ticks, finish, survival: survival(SURVIVAL, ticks) }
+        Lookout { strays, trail, steps, ticks, finish, survival: survival(SURVIVAL, ticks) }
     }
 
     /// Returns the avatar's initial cell.
     pub(crate) fn start(&self) -> usize {
-        self.moves.cell(self.moves.start())
+        self.trail.cell(self.trail.start())
     }
 
     /// Places wandering deadly sprites in the first of the `cells`. Uses the largest number in the range such that this
@@ -146,7 +125,7 @@ impl<M: Moves> Lookout<M> {
 
     fn play(&self, commit: usize, sampler: &mut Sampler) -> bool {
         let mut strays = self.strays.cells.clone();
-        let (mut tick, mut state) = (0, self.moves.start());
+        let (mut tick, mut state) = (0, self.trail.start());
         while tick < self.ticks {
             let Some(plan) = self.plan(tick, state, &strays, commit) else { return false };
             for next in plan {
@@ -158,10 +137,10 @@ impl<M: Moves> Lookout<M> {
                     }
                 }
                 tick += 1;
-                if strays.contains(&self.moves.cell(state)) {
+                if strays.contains(&self.trail.cell(state)) {
                     return false;
                 }
-                if self.moves.is_won(state) {
+                if self.trail.is_won(state) {
                     return true;
                 }
             }
@@ -203,7 +182,7 @@ impl<M: Moves> Lookout<M> {
         // There may be rows above the grid that contain other things.
         let above = level.rows() - grid.rows;
         let cell = |(x, y): (i32, i32)| grid.at((x / block) as usize, (y / block) as usize - above);
-        let mut place = self.moves.start();
+        let mut place = self.trail.start();
         let mut actions = Vec::new();
         while actions.len() < self.ticks {
             let strays: Vec<usize> = state.places(stray).map(cell).collect();
@@ -223,14 +202,14 @@ impl<M: Moves> Lookout<M> {
     /// Returns the actions of the plan with the highest probability of winning without looking again; `None` if no path
     /// wins in time.
     pub(crate) fn blind_plan(&self) -> Option<Vec<Action>> {
-        let start = self.moves.start();
+        let start = self.trail.start();
         self.keys(start, &self.plan(0, start, &self.strays.cells, self.ticks)?)
     }
 
     /// Returns the actions that lead from a state through the states of a plan.
     fn keys(&self, mut place: usize, plan: &[usize]) -> Option<Vec<Action>> {
         let key = |&next: &usize| {
-            let way = self.moves.ways(place).find(|(_, after)| *after == next)?.0;
+            let way = self.trail.ways(place).find(|(_, after)| *after == next)?.0;
             place = next;
             Some(way.map_or(Action::Nil, |way| ACTIONS[way]))
         };
@@ -242,16 +221,16 @@ impl<M: Moves> Lookout<M> {
     fn plan(&self, tick: usize, state: usize, strays: &[usize], commit: usize) -> Option<Vec<usize>> {
         let last = (tick + commit.max(AHEAD)).min(self.ticks);
         let clear = self.clear(tick, last, strays);
-        let states = self.moves.states();
+        let states = self.trail.states();
         // For each tick, the possible states. Each state has its possible steps, as indices into the next layer.
         let mut layers: Vec<Vec<(usize, Vec<usize>)>> = vec![vec![(state, Vec::new())]];
         let mut places = vec![usize::MAX; states];
         for now in tick..last {
             let mut next_layer: Vec<(usize, Vec<usize>)> = Vec::new();
             let layer = layers.last_mut()?;
-            for (state, steps) in layer.iter_mut().filter(|(state, _)| !self.moves.is_won(*state)) {
-                for &(next, cell) in &self.steps[*state] {
-                    if self.moves.is_busy(now, cell) || self.finish[(now + 1) * states + next] == NEVER {
+            for (state, steps) in layer.iter_mut().filter(|(state, _)| !self.trail.is_won(*state)) {
+                for &(next, _) in &self.steps[*state] {
+                    if self.finish[(now + 1) * states + next] == NEVER {
                         continue;
                     }
                     if next_layer.get(places[next]).is_none_or(|(at, _)| *at != next) {
@@ -272,11 +251,11 @@ impl<M: Moves> Lookout<M> {
             head[depth] = layer
                 .iter()
                 .map(|(state, steps)| {
-                    let mut clear = if depth == 0 { 1.0 } else { clear[depth - 1][self.moves.cell(*state)] };
+                    let mut clear = if depth == 0 { 1.0 } else { clear[depth - 1][self.trail.cell(*state)] };
                     if depth > commit + BLIND {
                         clear = clear.sqrt().sqrt();
                     }
-                    if self.moves.is_won(*state) {
+                    if self.trail.is_won(*state) {
                         return (clear, usize::MAX);
                     }
                     if now == last {
