@@ -9,7 +9,7 @@ use agents::PortfolioConfig;
 use base::Seed;
 use engine::{Action, Game, Level, Meeting, Watch};
 
-/// The maximum work per tick, in the engine's units, at which a call counts as a single call.
+/// The maximum work per tick, in the engine's units, at which a call has a weight of 1.
 const USUAL_WORK: u64 = 4096;
 /// The number of ticks to play when estimating a level's work per tick.
 const SAMPLED_TICKS: u64 = 16;

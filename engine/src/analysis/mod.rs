@@ -202,7 +202,7 @@ impl Analysis {
         self.roles[stype.index()]
     }
 
-    /// Returns the possible types that have the given role, in registry order.
+    /// Returns the types that can occur in play and have the given role, in registry order.
     pub fn of_role(&self, role: Role) -> impl Iterator<Item = SpriteType> + '_ {
         self.game.sprite_types().filter(move |&stype| self.role(stype) == role && self.facts(stype).possible)
     }

@@ -305,7 +305,7 @@ fn terminations(rules: &Rules) -> Vec<TerminationClause> {
     rules.terminations.iter().map(clause).collect()
 }
 
-/// A second reading of a compiled line, which records the parameters that differ from their defaults.
+/// A second parse of a compiled line, which records the parameters that differ from their defaults.
 struct Written<'a> {
     line: &'a InteractionLine,
     names: Names<'a>,

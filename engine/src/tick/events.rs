@@ -308,7 +308,7 @@ impl<'a, S: Scheduler> Step<'a, S> {
         watch.meeting(Meeting { line, first: first.stype, second, cell });
     }
 
-    /// Returns the living sprites before an execution, each with its partner's type.
+    /// Returns the sprites that are alive before a rule executes, each with its partner's type.
     #[cold]
     fn standing(&self, one: Slot, partners: &[Slot]) -> Vec<(Slot, Option<SpriteType>)> {
         let stype = |slot: Slot| self.world.sprite(slot).stype;

@@ -12,7 +12,7 @@ const MAX_KINDS: usize = 8;
 /// The maximum number of givers to place because an interaction requires their resource.
 const MOST_GIVERS: usize = 12;
 
-/// A kind of piece (a sprite type that boards place), with its position and number.
+/// A kind of piece (a sprite type that is placed on boards), with its position and count.
 #[derive(Clone, Debug)]
 pub(crate) struct Piece {
     pub(crate) stype: SpriteType,

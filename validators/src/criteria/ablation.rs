@@ -40,7 +40,7 @@ pub(crate) struct RulesMatter {
 
 /// The number of random futures to play from each execution.
 const FUTURES: u64 = 8;
-/// The number of ticks per future.
+/// The length of each rollout, in ticks.
 const DEPTH: usize = 60;
 /// The searching player's number of calls per decision.
 const DECISION: Budget = Budget(300);

@@ -45,9 +45,9 @@ impl Board {
         };
         match (&own[..], &others[..]) {
             (own, []) => named(own),
-            ([], others) => format!("no character of the LevelMapping shows: {}", named(others)),
+            ([], others) => format!("no character of the LevelMapping stands for: {}", named(others)),
             (own, others) => {
-                format!("{}; no character of the LevelMapping shows: {}", named(own), named(others))
+                format!("{}; no character of the LevelMapping stands for: {}", named(own), named(others))
             }
         }
     }

@@ -11,7 +11,7 @@ base::with_defaults! {
         /// `open-ground`: the maximum fraction of ground cells that no 2 × 2 square of ground contains, as a mean over
         /// the levels.
         pub narrow: f64 = 0.45,
-        /// `not-instant`: the minimum number of ticks in the shortest known win of a level after the first.
+        /// `not-instant`: the minimum length, in ticks, of the shortest known win on every level except the first.
         pub least_win: usize = 25,
         /// `not-instant`: the minimum length of the shortest known win, in periods of the level's slowest spawner.
         pub spawn_periods: f64 = 1.5,

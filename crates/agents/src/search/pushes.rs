@@ -108,20 +108,17 @@ fn find(analysis: &Analysis, level: &Level) -> Option<Pushes> {
     Some(Pushes { columns: level.columns() as i32, needs: needs? })
 }
 
+/// Returns `true` if an effect moves a sprite other than by a push, or changes its speed.
+fn moves(effect: &EffectSummary) -> bool {
+    use EffectSummary::{Carry, Speed, Teleport, Wrap};
+    matches!(effect, Carry | Teleport | Wrap | Speed(_))
+}
+
 /// Returns `true` if all avatars move by whole cells and face the direction in which they move, and nothing else
 /// moves them.
 fn steps_are_whole(analysis: &Analysis) -> bool {
-    let displaces = |effect: &EffectSummary| {
-        matches!(
-            effect,
-            EffectSummary::Turn
-                | EffectSummary::Push
-                | EffectSummary::Carry
-                | EffectSummary::Teleport
-                | EffectSummary::Wrap
-                | EffectSummary::Speed(_)
-        )
-    };
+    let displaces =
+        |effect: &EffectSummary| matches!(effect, EffectSummary::Turn | EffectSummary::Push) || moves(effect);
     analysis.avatars().iter().all(|avatar| analysis.moves_by_whole_cells(avatar.stype))
         && !analysis.encounters().iter().any(|encounter| {
             let of_avatar =
@@ -194,15 +191,6 @@ impl Board<'_> {
 
     /// Returns `true` if only pushes move sprites of the type.
     fn only_pushed(&self, stype: SpriteType) -> bool {
-        let moves = |effect: &EffectSummary| {
-            matches!(
-                effect,
-                EffectSummary::Carry
-                    | EffectSummary::Teleport
-                    | EffectSummary::Wrap
-                    | EffectSummary::Speed(_)
-            )
-        };
         self.analysis.facts(stype).motion == Motion::Still
             && self.analysis.facts(stype).makes.is_empty()
             && !self.analysis.facts(stype).fleeting

@@ -20,8 +20,7 @@ pub(crate) fn check(text: &str, earlier: &[Draft]) -> Result<Idea, Problem> {
     if name.len() > MAX_NAME || !name.split('-').all(is_plain) {
         let shown: String = name.chars().take(MAX_NAME).collect();
         return Err(Problem::plain(format!(
-            "`{shown}` isn't a valid name: join lower-case words by dashes, as in `peat-fire`, with at most {MAX_NAME} \
-             characters."
+            "`{shown}` isn't a valid name: use lower-case words joined with dashes, such as `peat-fire`, with at most {MAX_NAME} characters."
         )));
     }
     if earlier.iter().any(|draft| draft.name.as_ref() == Some(name)) {

@@ -1,7 +1,8 @@
 //! Reads answers to single-turn questions: a word from a list, or a board.
 
+use super::read::{pattern, quoted};
 use super::text::folded;
-use super::{Reading, Stage, pattern, quoted, without_reasoning};
+use super::{Reading, Stage, without_reasoning};
 use itertools::Itertools;
 use regex::Regex;
 use std::sync::LazyLock;

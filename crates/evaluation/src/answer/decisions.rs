@@ -1,8 +1,9 @@
 //! Finds the decisions that an answer states, and chooses the last of them.
 
+use super::Stage;
 use super::phrase::{self, Context, Phrase};
+use super::read::{Chosen, action_of, is_number, pattern};
 use super::text::boundary;
-use super::{Chosen, Stage, action_of, is_number, pattern};
 use engine::Action;
 use regex::{Captures, Regex};
 use std::ops::Range;

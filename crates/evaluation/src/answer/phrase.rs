@@ -2,7 +2,7 @@
 //! value. A phrase consists of words that introduce an action, the action itself, and optionally an
 //! explanation. A phrase with any other word is rejected, so the parser never guesses.
 
-use super::{action_of, pattern};
+use super::read::{action_of, pattern};
 use engine::Action;
 use regex::{Match, Regex};
 use std::sync::LazyLock;

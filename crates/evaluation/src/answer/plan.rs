@@ -2,8 +2,9 @@
 
 use super::decisions::{MAX_SCANNED, line_before};
 use super::phrase::{self, Context};
+use super::read::{Chosen, action_of, named, pattern, quoted};
 use super::text::{boundary, folded};
-use super::{Chosen, Reading, Stage, action_of, named, pattern, quoted, without_reasoning};
+use super::{Reading, Stage, without_reasoning};
 use engine::Action;
 use regex::{Captures, Regex};
 use std::sync::LazyLock;

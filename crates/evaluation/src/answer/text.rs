@@ -1,6 +1,6 @@
 //! Normalises an answer's text: removes the reasoning, and maps all variants of a symbol to one spelling.
 
-use super::pattern;
+use super::read::pattern;
 use regex::Regex;
 use std::sync::LazyLock;
 

@@ -3,6 +3,7 @@
 use super::cache::Cache;
 use super::chat::{Decoding, Model};
 use super::clock::{Clock, SystemClock};
+use super::http::HttpClient;
 use super::key::{Key, environment};
 use super::options::ModelOptions;
 use super::pace::Pace;
@@ -11,7 +12,6 @@ use super::remote::Remote;
 use super::spec::ModelSpec;
 use super::spending::caps::Caps;
 use super::spending::prices::{Price, Prices};
-use super::wire::Wire;
 use crate::error::EvaluationError;
 use base::Digest;
 use serde::{Deserialize, Serialize};
@@ -108,7 +108,7 @@ pub fn connect_with(
     let key = key(options, &spec, environment)?;
     let caps = Arc::new(Caps::new(options.limits, price.clone()));
     let remote = Remote {
-        wire: Wire::new(&spec.server, options),
+        http: HttpClient::new(&spec.server, options),
         pace: Pace::new(options, clock.clone()),
         cache: options.cache.as_deref().map(Cache::open).transpose()?,
         caps: caps.clone(),

@@ -1,8 +1,8 @@
 //! Classifies HTTP replies as answers, transient failures or final rejections.
 
 use super::chat::{ChatReply, Finish};
+use super::http::HttpReply;
 use super::provider::Provider;
-use super::wire::HttpReply;
 use itertools::Itertools;
 use serde_json::Value;
 use std::time::{Duration, SystemTime};

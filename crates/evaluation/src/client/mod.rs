@@ -10,6 +10,7 @@ mod chat;
 mod clock;
 mod connect;
 mod fault;
+mod http;
 mod key;
 mod options;
 mod pace;
@@ -17,7 +18,6 @@ mod provider;
 mod remote;
 mod spec;
 mod spending;
-mod wire;
 
 pub use chat::{
     ChatError, ChatErrorKind, ChatMessage, ChatReply, ChatRequest, Decoding, Failure, Finish, Model, Role,

@@ -5,13 +5,13 @@ use super::cache::{self, Cache};
 use super::chat::{ChatError, ChatErrorKind, ChatReply, ChatRequest, Failure, Model};
 use super::clock::Clock;
 use super::fault::{Fault, classify, shorten};
+use super::http::{HttpClient, HttpError};
 use super::key::Key;
 use super::options::OnFailure;
 use super::pace::Pace;
 use super::spec::ModelSpec;
 use super::spending::caps::Caps;
 use super::spending::estimate::prompt_tokens;
-use super::wire::{Wire, WireError};
 use base::{Digest, Sampler};
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
@@ -22,7 +22,7 @@ use std::time::Duration;
 pub(super) struct Remote {
     pub(super) spec: ModelSpec,
     pub(super) key: Option<Key>,
-    pub(super) wire: Wire,
+    pub(super) http: HttpClient,
     pub(super) pace: Pace,
     pub(super) caps: Arc<Caps>,
     pub(super) cache: Option<Cache>,
@@ -130,7 +130,7 @@ impl Remote {
 
     fn try_once(&self, url: &str, body: &[u8]) -> Result<ChatReply, Fault> {
         let headers = self.spec.provider.headers(self.key.as_ref());
-        let outcome = self.wire.post(url, &headers, body);
+        let outcome = self.http.post(url, &headers, body);
         let hide = |words: String| match &self.key {
             Some(key) => key.hide_in_message(&words),
             None => words,
@@ -140,7 +140,7 @@ impl Remote {
             true => self.is_reached.load(Ordering::Relaxed),
             false => self.is_reached.swap(true, Ordering::Relaxed),
         };
-        let mut reply = outcome.map_err(|WireError { status, message, is_refused }| {
+        let mut reply = outcome.map_err(|HttpError { status, message, is_refused }| {
             let message = shorten(&hide(message));
             match is_refused && !was_reached {
                 true => Fault::Unreachable { message },

@@ -116,7 +116,7 @@ impl EpisodeMetrics {
         Ok(EpisodeMetrics::measured(subject, log, replay(subject, log)?))
     }
 
-    /// Computes the metrics that do not depend on meaningful steps, at the cost of [`replay_course`].
+    /// Computes the metrics that do not depend on meaningful steps. Costs as much as [`replay_course`].
     /// `meaningful`, `meaningful_as_code` and the rates of `movement` are `None`.
     ///
     /// # Errors

@@ -70,7 +70,7 @@ pub struct ErrorParts {
     pub link: f64,
 }
 
-/// The reason for a missing ability.
+/// The reason why no ability could be estimated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Refusal {

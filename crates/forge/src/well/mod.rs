@@ -46,11 +46,11 @@ pub fn left(census: &Census, known: &[GameForm], seed: Seed) -> f64 {
     sets * new as f64 / NEAR_SAMPLES as f64
 }
 
-/// Simulates a chain of monthly releases whose invented games are kept apart from `known` games. `noted` is called with
-/// each month.
+/// Simulates a chain of monthly releases whose invented games must differ from the `known` games. `noted` is called
+/// with each month.
 ///
-/// The same order, known games and seed give the same result on any number of threads. Costs about 10 core milliseconds
-/// per passing candidate, and a few microseconds per pair of candidates.
+/// The same order, known games and seed give the same result on any number of threads. Costs about 10 ms of processor
+/// time per passing candidate, and a few microseconds per pair of candidates.
 pub fn simulate(order: &WellOrder, known: &[GameForm], seed: Seed, noted: &dyn Fn(&WellMonth)) -> Well {
     let supply =
         InventionSupply::estimate(&InventionConfig::default(), SUPPLY_SAMPLES, seed.child("supply", 0));

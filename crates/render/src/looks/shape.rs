@@ -8,8 +8,8 @@ use super::colour::Colour;
 /// A point in the unit square.
 pub type Point = [f32; 2];
 
-/// The distance of the control points with which a cubic Bézier curve approximates a quarter circle. This is the
-/// customary value, with an error of at most 0.03%.
+/// The distance from each end point of a quarter circle to its control point, as a fraction of the radius, in the usual
+/// cubic Bézier approximation. The error is at most 0.03%.
 const QUARTER: f32 = 0.552_284_8;
 
 /// A step of an outline.

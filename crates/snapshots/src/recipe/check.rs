@@ -216,7 +216,7 @@ impl Recipe {
             let of_corpus =
                 self.corpus.criteria.as_ref().is_none_or(|criteria| criteria.includes(Criterion::Skill));
             if !(self.criteria.includes(Criterion::Skill) && of_corpus) {
-                let help = "requires `skill`, whose episodes measure it: add `skill` to `criteria.ask`";
+                let help = "requires the criterion `skill`, whose episodes provide the measurement: add `skill` to `criteria.ask`";
                 return wrong("difficulty", help);
             }
         }

@@ -4,8 +4,8 @@
 mod build;
 mod effect_summary;
 mod parameters;
-mod rows;
 mod sentences;
+mod summaries;
 mod summary;
 
 use super::SpriteType;

@@ -1,5 +1,5 @@
 //! Summaries of effects: the possible consequences of an execution, as plain data. Each effect has one row
-//! (`rows.rs`).
+//! (`summaries.rs`).
 //!
 //! The rest of the workspace uses only summaries, and does not depend on any particular effect.
 

@@ -32,8 +32,8 @@ pub(super) struct Addressed {
     pub(super) turn: u64,
 }
 
-/// Returns an answer's actions, up to the number due, and the thought that it reports, or a message stating the problem
-/// with the answer.
+/// Returns an answer's actions (at most the number that is due) and the reasoning that it reports. Returns a message if
+/// something is wrong with the answer.
 pub(super) fn read(answer: &[u8], turn: &Turn<'_>) -> Result<(Vec<Action>, Thought), String> {
     if let Ok(Addressed { turn: addressed }) = serde_json::from_slice(answer)
         && addressed > turn.number

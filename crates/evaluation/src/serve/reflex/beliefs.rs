@@ -84,7 +84,7 @@ enum Subject {
     Motion,
 }
 
-/// The sentence patterns. The first pattern that matches counts. The patterns for touches come from the
+/// The sentence patterns. The first match wins. The patterns for touches come from the
 /// templates in `engine::describe`. Templates with more fixed text come first, because they are more
 /// specific.
 static SENTENCES: LazyLock<Vec<(Regex, Option<Subject>)>> = LazyLock::new(|| {

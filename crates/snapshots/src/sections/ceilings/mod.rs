@@ -171,7 +171,7 @@ impl Ceilings {
         let mut text = format!(
             "## Ceilings\n\nThe win rate of the best known player of each level, in {} episodes at each commitment \
              (the number of actions per decision).\n\n\
-             | actions a look | levels | mean ceiling | levels with at least {ENOUGH} |\n|---|---|---|---|\n",
+             | actions per decision | levels | mean ceiling | levels with at least {ENOUGH} |\n|---|---|---|---|\n",
             self.asked.episodes
         );
         let levels = || self.games.iter().flat_map(|game| &game.levels);

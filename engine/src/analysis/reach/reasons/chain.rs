@@ -67,7 +67,7 @@ pub struct Shortage {
     pub resource: SpriteType,
     /// The amount that must be held at once.
     pub needed: i32,
-    /// The maximum amount that one sprite can hold, if this maximum is already too small.
+    /// The maximum amount that one sprite can hold, if it is less than the required amount.
     pub capacity: Option<i32>,
     /// The total obtainable amount. The value is meaningless if `capacity` is set.
     pub most: i64,

@@ -122,9 +122,7 @@ pub(super) fn choose(
     })?;
     if !levels.is_linked {
         console.remark(
-            "warning: too few anchors (readers that stay the same) have played this release, so \
-             `arcade study scale` will not place the player, and the errors below hold only for comparisons \
-             on this release; calibrate the release with two anchors (--readers)",
+            "warning: too few anchors (readers that never change) have played this release, so `arcade study scale` cannot place the player; the errors below hold only for comparisons on this release; to calibrate the release, evaluate two anchors (--readers)",
         );
     }
     if args.choice.adaptive {

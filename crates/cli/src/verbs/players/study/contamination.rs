@@ -102,8 +102,7 @@ fn coins(released: &Released, args: &Args) -> Result<Coins, Failure> {
     }
     if MemoryPart::of(manifest).is_none() {
         bail!(
-            "{place}: `{name}` has no withheld siblings (renamed games) or wins, because its recipe has no \
-             `[memory]`; {how}"
+            "{place}: `{name}` has neither withheld siblings (renamed copies of games) nor withheld wins, because its recipe has no `[memory]`; {how}"
         );
     }
     let coins = Coins { games: released.games.iter().map(coin).collect() };

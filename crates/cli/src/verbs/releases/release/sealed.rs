@@ -111,9 +111,7 @@ fn taken(file: &Path, recipe: &Recipe, committed: Option<Digest>, mint: &str) ->
              `{mint}`"
         ),
         Some(committed) if committed == commitment => malformed!(
-            "{shown}; the recipe already has its commitment, but something else in the recipe, or its \
-             --parent, was changed since: undo that change, or draw a new secret with a different --out, and \
-             replace this commitment with the new one"
+            "{shown}; the recipe contains this secret's commitment, but the recipe or its --parent has changed since: undo the change, or draw a new secret with a different --out and replace the commitment in the recipe"
         ),
         None if is_of_recipe => malformed!(
             "{shown}; it was drawn for this recipe: write `commitment = \"{commitment}\"` into the recipe, \

@@ -33,8 +33,9 @@ pub struct BudgetRate {
     pub rate: Option<Estimate>,
     /// The number of ended episodes.
     pub episodes: u64,
-    /// The number of output tokens in all episodes, divided by the number of wins. The words of an answer count if its
-    /// tokens are unknown. `None` without a win, or if a program did not report its thought in an episode.
+    /// The number of output tokens in all episodes, divided by the number of wins. If the token count of an answer is
+    /// unknown, its words are counted instead. `None` if there are no wins, or if a program did not report its
+    /// reasoning in some episode.
     pub tokens_per_win: Option<f64>,
     /// The price of all episodes in US dollars, divided by the number of wins. `None` without a win, or if the price is
     /// unknown.

@@ -9,7 +9,7 @@ use ureq::http::header::{LOCATION, RETRY_AFTER};
 use ureq::{Agent, Error};
 
 /// An HTTP client that sends requests to one server.
-pub(super) struct Wire {
+pub(super) struct HttpClient {
     agent: Agent,
     reply_limit: u64,
     timeout: Duration,
@@ -17,7 +17,7 @@ pub(super) struct Wire {
 }
 
 /// The reason why an exchange yielded no reply.
-pub(super) struct WireError {
+pub(super) struct HttpError {
     /// The HTTP status, if the reply contained one.
     pub(super) status: Option<u16>,
     pub(super) message: String,
@@ -33,10 +33,10 @@ pub(super) struct HttpReply {
     pub(super) body: String,
 }
 
-impl Wire {
+impl HttpClient {
     /// Creates a client for `server`. A request may take up to `timeout` in total, and a reply may have up to
     /// `reply_limit` bytes. Proxies from the environment are used, unless the server runs on this machine.
-    pub(super) fn new(server: &Server, options: &ModelOptions) -> Wire {
+    pub(super) fn new(server: &Server, options: &ModelOptions) -> HttpClient {
         let &ModelOptions { timeout, connect_timeout, reply_limit, .. } = options;
         let mut config = Agent::config_builder()
             .http_status_as_error(false)
@@ -49,7 +49,7 @@ impl Wire {
         if server.loopback {
             config = config.proxy(None);
         }
-        Wire { agent: config.build().new_agent(), reply_limit, timeout, connect_timeout }
+        HttpClient { agent: config.build().new_agent(), reply_limit, timeout, connect_timeout }
     }
 
     /// Posts a JSON body and reads the reply.
@@ -61,12 +61,12 @@ impl Wire {
         url: &str,
         headers: &[(&'static str, HeaderValue)],
         body: &[u8],
-    ) -> Result<HttpReply, WireError> {
+    ) -> Result<HttpReply, HttpError> {
         let mut request = self.agent.post(url).content_type("application/json");
         for (name, value) in headers {
             request = request.header(*name, value.clone());
         }
-        let mut response = request.send(body).map_err(|error| WireError {
+        let mut response = request.send(body).map_err(|error| HttpError {
             status: None,
             is_refused: matches!(&error, Error::Io(error) if error.kind() == ErrorKind::ConnectionRefused),
             message: self.in_words(error),
@@ -79,7 +79,7 @@ impl Wire {
         // Reading one byte beyond the limit detects a reply that is too large.
         let reader = response.body_mut().as_reader().take(self.reply_limit.saturating_add(1));
         let read = { reader }.read_to_end(&mut bytes);
-        let broken = |message| WireError { status: Some(status), message, is_refused: false };
+        let broken = |message| HttpError { status: Some(status), message, is_refused: false };
         read.map_err(|error| broken(self.in_words(Error::from(error))))?;
         if bytes.len() as u64 > self.reply_limit {
             return Err(broken(format!("a body of more than {} bytes", self.reply_limit)));
