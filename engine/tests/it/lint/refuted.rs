@@ -414,3 +414,18 @@ fn a_new_random_missile_may_move_diagonally() {
     assert!(state.places(spark).any(|place| place == (block, 2 * block)));
     assert!(Analysis::of(&game).reach(&level).can_be(spark, 5));
 }
+
+/// The taker of a resource lies on the source. What is missing is the resource that must be held first.
+#[test]
+fn a_taker_on_its_source_reaches_it() {
+    let game = Game::from_source(
+        "BasicGame\n    SpriteSet\n        goods >\n            mill > SpriteProducer\n            flour > Resource\n    LevelMapping\n        \
+         f > flour mill\n    InteractionSet\n        goods mill > collectResourceIfHeld heldResource=flour\n    TerminationSet\n        \
+         MultiSpriteCounter stype1=flour win=True\n",
+    )
+    .unwrap();
+    let chains = Analysis::of(&game).causes(&game.level("A\nf\n").unwrap());
+    let missing = chains[0].obstacles.iter().map(|obstacle| &obstacle.missing).collect::<Vec<_>>();
+    let [Missing::Resource(shortage)] = missing[..] else { panic!("{chains:?}") };
+    assert_eq!(shortage.sources, []);
+}

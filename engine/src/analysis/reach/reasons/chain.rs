@@ -329,8 +329,10 @@ impl<'a, 'e> Chains<'a, 'e> {
                         .gifts
                         .get(&(resource, stype))
                         .is_some_and(|gift| !model.of_type(stype).fixed || gift.cells.contains(cell));
-                    // If both sprites have the same type, it is unclear which sprite has to move.
-                    if !got && self.analysis.applies(taker, stype) {
+                    // If both sprites have the same type, it is unclear which sprite has to move. If the taker reaches
+                    // the source, a different requirement of the rule is missing.
+                    let is_reached = || self.all(taker).contains(cell);
+                    if !got && (self.analysis.applies(taker, stype) || is_reached()) {
                         continue;
                     }
                     let unreachable = (!got).then(|| self.unreachable(taker, at, reported));
