@@ -1,6 +1,6 @@
 //! Reads an action from an answer, in the requested format or in any other.
 
-use super::{Format, Reading, Stage, decisions, text, without_reasoning};
+use super::{Format, Reading, decisions, text, without_reasoning};
 use engine::Action;
 use regex::Regex;
 use std::sync::LazyLock;
@@ -114,6 +114,7 @@ pub(super) fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::answer::Stage;
     use Action::{Down, Left, Nil, Right, Up, Use};
     use proptest::prelude::*;
 

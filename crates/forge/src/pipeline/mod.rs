@@ -23,9 +23,9 @@ mod sources;
 mod stage;
 mod stages;
 
+pub(crate) use game::GameGate;
 #[cfg(test)]
 pub(crate) use game::tests;
-pub(crate) use game::{GameGate, Trial};
 pub(crate) use request::{DIFFICULTY, LevelGate};
 pub(crate) use rules::NEAR_KNOWN;
 pub(crate) use sources::Rules;

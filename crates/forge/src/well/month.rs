@@ -22,7 +22,7 @@ pub struct WellOrder {
 
 impl Default for WellOrder {
     fn default() -> WellOrder {
-        WellOrder { months: 24, games: 100, candidates: 1.5, tries: 16, passing: 0.1 }
+        WellOrder { months: 24, games: 100, candidates: 2.0, tries: 16, passing: 0.1 }
     }
 }
 

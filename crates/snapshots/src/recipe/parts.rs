@@ -70,7 +70,7 @@ base::with_defaults! {
         /// The maximum number of searches for each level's board.
         pub level_tries: u32 = 3,
         /// The number of candidate games per selected game.
-        pub candidates: f64 = 1.5,
+        pub candidates: f64 = 2.0,
         /// The weights of the methods among the candidates.
         pub mix: Mix = Mix::default(),
     }
