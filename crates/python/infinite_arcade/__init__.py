@@ -17,6 +17,7 @@ from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, Vgdl
 from .games import CorpusGame, Episode, Game, Level, State, corpus, load, seed_child, seed_from_text
 from .judging import generate_games, generate_levels, validate
 from .planning import PLANNERS, Planner, play
+from .rewards import RewardComponents, RewardWeights, reward_components
 from .snapshots import Release, SnapshotGame, merge, mint, open_snapshot, verify
 from .streams import Stream, StreamItem, stream
 
@@ -33,6 +34,8 @@ __all__ = [
     "LogError",
     "Planner",
     "Release",
+    "RewardComponents",
+    "RewardWeights",
     "SnapshotGame",
     "State",
     "Stream",
@@ -47,6 +50,7 @@ __all__ = [
     "mint",
     "open_snapshot",
     "play",
+    "reward_components",
     "seed_child",
     "seed_from_text",
     "stream",
