@@ -14,6 +14,7 @@ package registers the environments.
 from contextlib import suppress
 
 from ._native import ACTIONS, GENERATION, SEMANTICS, ArcadeError, LogError, VgdlError, __version__
+from .curriculum import Curriculum, Lesson
 from .games import CorpusGame, Episode, Game, Level, State, corpus, load, seed_child, seed_from_text
 from .judging import generate_games, generate_levels, validate
 from .planning import PLANNERS, Planner, play
@@ -28,8 +29,10 @@ __all__ = [
     "SEMANTICS",
     "ArcadeError",
     "CorpusGame",
+    "Curriculum",
     "Episode",
     "Game",
+    "Lesson",
     "Level",
     "LogError",
     "Planner",
