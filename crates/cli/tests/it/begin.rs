@@ -117,7 +117,7 @@ fn new_recipes_are_accepted_as_they_are() {
     says(folder, &commit, 2, &[mint]);
     let committed = fs::read_to_string(folder.join("2027-01.toml")).unwrap();
     fs::write(folder.join("2027-01.toml"), committed.replace("games = 8", "games = 7")).unwrap();
-    says(folder, &commit, 2, &["changed since: undo that change, or draw a new secret"]);
+    says(folder, &commit, 2, &["changed since: undo the change, or draw a new secret"]);
     let again = text(&run(folder, &[&commit[..], &["--out", "other.json"]].concat(), 0).stdout);
     assert!(again.contains("already has a `commitment` line: replace it"), "{again}");
     fs::write(folder.join("2027-01.toml"), &committed).unwrap();
