@@ -10,7 +10,7 @@ use validators::{
 /// The maximum width of a board to show, in columns.
 const MAX_WIDTH: usize = 100;
 /// The maximum number of boards to show per level.
-const MOST_BOARDS: usize = 2;
+const MOST_BOARDS: usize = 1;
 /// The maximum number of pieces of evidence to show per criterion.
 const MOST_SEEN: usize = 6;
 /// The maximum number of causes to show per chain of causes.
@@ -89,7 +89,12 @@ fn review(document: &Review<'_>, quiet: bool) -> String {
     for level in &shown {
         if let Some(report) = level.report {
             let _ = writeln!(text, "\n{}", level.name);
-            if !report.passes() {
+            // Evidence with a board of its own shows more than the plain board.
+            let seen = |judgement: &Judgement| {
+                !judgement.finding.verdict.is_pass()
+                    && judgement.finding.evidence.iter().any(|seen| seen.board.is_some())
+            };
+            if !report.passes() && !report.judgements.iter().any(seen) {
                 board(&mut text, level.board);
             }
             let mut boards = 0;

@@ -145,14 +145,14 @@ impl View {
             .filter(|(glyph, _)| *glyph != Glyph::Floor)
             .collect();
         shown.sort_unstable();
-        let line = |(glyph, stype): (Glyph, SpriteType)| {
+        let line = |(_, stype): (Glyph, SpriteType)| {
             let cell = self.signs.drawn(&self.looks, stype, GROUND);
             let name = self.looks.game().name(stype).to_owned();
             let dim = Style::new().add_modifier(Modifier::DIM);
             Line::from(vec![
                 Span::styled(cell.text.to_owned(), cell.style),
                 Span::raw(format!(" {name} ")),
-                Span::styled(format!(" {}", glyph.meaning()), dim),
+                Span::styled(format!(" {}", self.looks.meaning(stype)), dim),
             ])
         };
         shown.into_iter().map(line).collect()

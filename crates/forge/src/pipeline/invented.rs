@@ -15,11 +15,12 @@ use validators::CheckedCriteria;
 /// The last position in the sequence of levels, counted from 0. It corresponds to a difficulty of 1.
 const DEMANDS: u8 = 4;
 
-/// The first position in the sequence of levels at which the mechanics of a board must matter.
+/// The position in the sequence of levels for which a quick evaluation looks for a board on which every mechanic
+/// matters.
 const JOINT: u8 = 2;
-/// The number of mechanics that must matter on a board before the last position in the sequence of levels. At the last
-/// position, every mechanic must matter.
-const LEAST_JOINT: usize = 2;
+/// The number of mechanics that must matter on a board, by its position in the sequence of levels. At the last position,
+/// every mechanic must matter.
+const LEAST_JOINT: [usize; DEMANDS as usize] = [1, 1, 2, 2];
 
 /// The position in the sequence of levels for which boards are made in a quick evaluation.
 const LOOK_DEMAND: u8 = 1;
@@ -244,11 +245,12 @@ impl PlaceBoards<'_> {
     fn order(&self, candidate: &SeedPath) -> BoardOrder {
         let without = self.left_out(candidate);
         let brief = BoardBrief { without, ..self.source.brief(&self.analysis, self.demand) };
-        let mechanics = if self.demand < JOINT { Vec::new() } else { self.source.mechanics.clone() };
+        let mechanics = self.source.mechanics.clone();
         let unlike = self.others.iter().map(|(_, found)| found.level.clone()).collect();
         let order = BoardOrder::of(brief);
         let acting = mechanics.iter().filter(|lines| !lines.is_empty()).count();
-        let idle = if self.demand < DEMANDS { acting.saturating_sub(LEAST_JOINT) } else { 0 };
+        let least = LEAST_JOINT.get(usize::from(self.demand));
+        let idle = least.map_or(0, |least| acting.saturating_sub(*least));
         BoardOrder {
             mechanics,
             idle,
@@ -269,14 +271,15 @@ impl PlaceBoards<'_> {
         self.others.iter().filter_map(firsts).collect()
     }
 
-    /// Narrows the default win length to the range allowed by the criteria and by the wins of other levels.
+    /// Narrows the default win length to the range allowed by the criteria and by the wins of other levels. The last
+    /// level is found before the levels between, so no win is longer than the win of the last level.
     fn ticks(&self, (low, high): (usize, usize)) -> (usize, usize) {
         let (mut low, mut high) = (low.max(self.criteria.least_ticks), high.min(self.criteria.most_ticks));
         for (number, found) in self.others {
             let Some(win) = &found.report.witness else { continue };
             match *number < self.number {
                 true => low = low.max((win.actions.len() as f64 * LATER_SHARE).ceil() as usize),
-                false => high = high.min((win.actions.len() as f64 / LATER_SHARE) as usize),
+                false => high = high.min(win.actions.len()),
             }
         }
         (low, high.max(low))

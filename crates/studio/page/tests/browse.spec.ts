@@ -184,10 +184,10 @@ test('a game is begun where there is none, and the manual is a click away', asyn
   await expect(page.getByText(/^Can be won in/)).toBeVisible();
   await expect(page.getByRole('radio', { name: /symbol A/ })).toHaveCount(0);
   await page.getByRole('button', { name: 'Help' }).click();
-  await expect(page.getByRole('heading', { name: 'Your first game in VGDL' })).toBeVisible();
+  await expect(page.getByRole('heading', { name: 'Your first game' })).toBeVisible();
   await page.locator('.cm-line', { hasText: 'hedgehog boat' }).getByText('pullWithIt').click();
   await page.getByRole('button', { name: /^Explain/ }).click();
   await expect(page.getByRole('heading', { name: 'pullWithIt' })).toBeVisible();
   await page.goto(page.url().replace(/#.*/, '#/help/first-game'));
-  await expect(page.getByRole('heading', { name: 'Your first game in VGDL' })).toBeVisible();
+  await expect(page.getByRole('heading', { name: 'Your first game' })).toBeVisible();
 });

@@ -30,6 +30,7 @@ impl Study {
         }
         let next = rows.get(1).copied().or_else(|| played().find(|row| row.player != best.player));
         let mut lead = vec![self.best(best)];
+        lead.extend(self.best_baseline(best));
         lead.extend(next.and_then(|next| self.against(best, next)));
         lead.extend(self.kinds_of(best));
         let told = rows.iter().take(TOLD).filter_map(|row| self.failures_of(row));
@@ -60,7 +61,7 @@ impl Study {
             other.scores.win_rate.is_none_or(|other| other.value < rate.value) && !is_ahead(other)
         };
         let won = match wins {
-            0 => "won nothing",
+            0 => "won no episode",
             _ if others(false).count() > 0 && others(false).all(is_first) => "won the most",
             _ if others(true).count() > 0 && others(true).all(is_first) => {
                 "won the most, not counting baselines"
@@ -68,6 +69,22 @@ impl Study {
             _ => "won",
         };
         format!("{label} {won}: {value}% ({wins} of {episodes} episodes); {about}, {low} to {high}%.")
+    }
+
+    /// Names the baseline that won the most, if its win rate is higher than that of the best model.
+    fn best_baseline(&self, best: &LeaderRow) -> Option<String> {
+        let rate = |row: &LeaderRow| row.scores.win_rate.map(|rate| rate.value);
+        let own = rate(best)?;
+        let others = self.leaderboard.iter().filter(|row| row.player != best.player);
+        let first =
+            others.max_by(|one, other| rate(one).unwrap_or(0.0).total_cmp(&rate(other).unwrap_or(0.0)))?;
+        let value = rate(first).filter(|value| *value > own && self.players[first.player].is_reference())?;
+        let label = self.players[first.player].label();
+        let (wins, episodes) = (first.scores.wins, first.scores.episodes);
+        Some(format!(
+            "The baseline {label} won the most: {}% ({wins} of {episodes} episodes).",
+            percent(value)
+        ))
     }
 
     /// Returns the comparison of two players and a sign. Multiplied by the sign, the differences are the

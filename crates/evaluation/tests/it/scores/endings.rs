@@ -217,7 +217,10 @@ fn the_best_is_called_best_only_if_it_is() {
     };
     assert!(first(2, 1).starts_with("m (zero-shot) won the most: 50%"), "{}", first(2, 1));
     assert!(first(1, 2).starts_with("m (zero-shot) won: 25%"), "{}", first(1, 2));
-    assert!(first(0, 2).starts_with("m (zero-shot) won nothing: 0%"), "{}", first(0, 2));
+    assert!(first(0, 2).starts_with("m (zero-shot) won no episode: 0%"), "{}", first(0, 2));
+    let ahead = "The baseline b won the most: 50% (2 of 4 episodes).";
+    assert!(first(1, 2).contains(ahead) && first(0, 2).contains(ahead), "{}", first(1, 2));
+    assert!(!first(2, 2).contains("The baseline") && !first(2, 1).contains("The baseline"));
     // The higher rate comes from one additional easy level. On the levels that both players played, the
     // baseline won more often.
     let on = |wins: &[(&str, bool)]| {

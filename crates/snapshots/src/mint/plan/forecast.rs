@@ -105,7 +105,8 @@ impl Plan<'_> {
                 f64::from(levels) * if is_gated(criteria) { gated } else { plain }
             }
             Job::Corpus(_) => of(CORPUS, levels, criteria),
-            Job::Puzzle(kind, _) => of([kind.seconds(); 3], levels, criteria),
+            // The generators of puzzles solve every board within their own budgets.
+            Job::Puzzle(kind, _) => f64::from(levels) * kind.seconds(),
         };
         let spread = match job {
             Job::Corpus(_) | Job::Puzzle(..) => SPREAD_FIXED_RULES,

@@ -284,7 +284,7 @@ fn summary(args: &Args, set: &LevelSet, seconds: f64) -> String {
     );
     let missing = asked as usize - made;
     if !cost.rejections.is_empty() {
-        let _ = writeln!(text, "rejected: {}", cost.reasons());
+        let _ = writeln!(text, "rejected by inspections or judges: {}", cost.reasons());
     }
     if missing > 0 {
         let _ = writeln!(text, "{missing} could not be made: request fewer levels, or use a different seed");
