@@ -196,8 +196,10 @@ impl Analysis {
     pub fn only_falls(&self, types: &[SpriteType]) -> bool {
         let game = &self.game;
         let one_of = |stype: &SpriteType| types.contains(stype);
-        let all_of = |written: SpriteType| {
-            game.sprite_types().filter(|stype| self.applies(written, *stype)).all(|stype| one_of(&stype))
+        // A type may be counted more than once.
+        let weight = |stype: SpriteType| types.iter().filter(|counted| **counted == stype).count();
+        let least_weight = |written: SpriteType| {
+            game.sprite_types().filter(|stype| self.applies(written, *stype)).map(weight).min()
         };
         let is_made = |maker: SpriteType| self.can_exist(maker) && self.facts(maker).makes.iter().any(one_of);
         let adds = |effect: &EffectSummary, first: Option<SpriteType>, turns_dead: bool| {
@@ -212,7 +214,11 @@ impl Analysis {
             // A second `transformToAll` in the same tick also transforms the sprites that the first one has
             // already transformed.
             let takes_one = !matches!(effect, EffectSummary::Make(_) | EffectSummary::BecomeAll(..))
-                && first.is_some_and(|first| all_of(first) && !(turns_dead && is_avatar(first)));
+                && first.is_some_and(|first| {
+                    let most = effect.makes().iter().map(|made| weight(*made)).max();
+                    least_weight(first).is_some_and(|least| least > 0 && most <= Some(least))
+                        && !(turns_dead && is_avatar(first))
+                });
             effect.makes().iter().any(one_of) && !takes_one
         };
         let timed = timed_effects(&game.0);

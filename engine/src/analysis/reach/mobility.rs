@@ -161,12 +161,14 @@ impl Model<'_> {
                 own.facing = Directions::ALL;
                 let limit = traits.max_speed.abs();
                 own.top = if traits.max_speed == -1.0 { f64::INFINITY } else { own.top.max(limit) };
+            }
+            if passive || steered != Directions::NONE {
+                // Friction above 1 reverses a movement, and friction above 2 makes it faster in every tick.
+                let reverses = !(0.0..=1.0).contains(&traits.friction);
+                directions = if accelerates || reverses { Directions::ANY } else { own.facing };
                 if !(0.0..=2.0).contains(&traits.friction) {
                     own.top = f64::INFINITY;
                 }
-            }
-            if passive || steered != Directions::NONE {
-                directions = if accelerates { Directions::ANY } else { own.facing };
             }
             own.off_grid |= directions != Directions::NONE;
         } else {

@@ -429,3 +429,31 @@ fn a_taker_on_its_source_reaches_it() {
     let [Missing::Resource(shortage)] = missing[..] else { panic!("{chains:?}") };
     assert_eq!(shortage.sources, []);
 }
+
+/// A sprite that is counted once becomes a sprite that is counted twice.
+#[test]
+fn a_change_to_a_type_that_counts_twice_adds_to_the_count() {
+    let game = Game::from_source(
+        "BasicGame\n    SpriteSet\n        group0 > Walker\n            group1 >\n                s1 >\n                s3 >\n        \
+         hero > PlatformerAvatar\n    LevelMapping\n        a > s1\n    InteractionSet\n        \
+         group1 hero s1 EOS > transformToRandomChild stype=s1\n    TerminationSet\n        \
+         MultiSpriteCounter stype1=group1 stype2=s3 limit=3\n",
+    )
+    .unwrap();
+    let analysis = Analysis::of(&game);
+    let counted = analysis.goals()[0].condition.types().to_vec();
+    assert!(!analysis.only_falls(&counted), "{counted:?}");
+}
+
+/// Infinite friction reverses a movement.
+#[test]
+fn infinite_friction_reverses_a_missile() {
+    let game = Game::from_source_as_reference(
+        "BasicGame\n    SpriteSet\n        avatar > MissileAvatar physicstype=CONT friction=1e999\n    LevelMapping\n    InteractionSet\n    \
+         TerminationSet\n",
+    )
+    .unwrap();
+    let level = game.level(" A\n").unwrap();
+    let avatar = game.sprite_type("avatar").unwrap();
+    assert!(Analysis::of(&game).reach(&level).can_be(avatar, 0));
+}
