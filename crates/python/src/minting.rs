@@ -114,7 +114,7 @@ fn hand_written() -> PyResult<Corpus> {
     let game = |(name, source, levels, card): (String, String, Vec<String>, String)| {
         CorpusGame::read(name, source, levels, &card).map_err(failed)
     };
-    Ok(Corpus { games: corpus().into_iter().map(game).collect::<PyResult<_>>()? })
+    Ok(Corpus { games: corpus().into_iter().map(game).collect::<PyResult<_>>()?, designs: None })
 }
 
 /// Runs `work` on a pool with the given number of threads. The default is one thread per core.

@@ -91,6 +91,7 @@ pub use recipe::error::{MAX_RECIPE, RecipeError};
 pub use recipe::known::Known;
 pub use recipe::parts::{CorpusPart, GeneratedPart, InventedPart, Mix, Taxonomy};
 pub use recipe::secret::{COMMITS_TO_RECIPE_SINCE, Secret, read_secret};
+pub use sections::designs::{Design, DesignPool, DesignsPart, PoolError, Provenance};
 pub use sections::frozen::{FrozenGame, JobResult};
 pub use sections::puzzles::{PuzzleKind, PuzzlePart};
 pub use sections::tiers::Tiers;

@@ -7,7 +7,7 @@ use super::kind::Kind;
 use crate::kernels::words::scene::Retelling;
 use base::Sampler;
 use engine::SpriteType;
-use engine::analysis::{Analysis, Genre, Role as Use};
+use engine::analysis::{Analysis, Role as Use};
 use engine::describe::Guide;
 use itertools::Itertools;
 
@@ -30,18 +30,7 @@ pub(super) fn title(
     is_new: impl Fn(&str) -> bool,
     sampler: &mut Sampler,
 ) -> String {
-    let kind = match analysis.taxonomy().genres.first() {
-        Some(Genre::Platformer | Genre::Escape) => Kind::Escape,
-        Some(Genre::Race | Genre::Crossing) => Kind::Crossing,
-        Some(Genre::Puzzle) => Kind::BoxPuzzle,
-        Some(Genre::Shooter | Genre::Hunt) => Kind::Shooter,
-        Some(Genre::Collect) => Kind::CollectAndAvoid,
-        Some(Genre::Adventure) => Kind::KeyAndDoor,
-        Some(Genre::Guide) => Kind::Herding,
-        Some(Genre::Defence) => Kind::Defence,
-        Some(Genre::Survive) => Kind::Survival,
-        None => Kind::Tending,
-    };
+    let kind = Kind::of(analysis);
     let hero = headline(hero);
     let mut titles = (0..MAX_TITLES).map(|_| {
         let title_word = kind.title_word(sampler);

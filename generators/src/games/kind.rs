@@ -1,6 +1,8 @@
 //! The kinds of games, distinguished by the way in which the player wins.
 
 use base::Sampler;
+use engine::Analysis;
+use engine::analysis::Genre;
 use serde::{Deserialize, Serialize};
 
 /// Declares each kind once, with its variant, its configuration name and its title words.
@@ -61,6 +63,22 @@ kinds! {
 }
 
 impl Kind {
+    /// Returns the kind that fits the genre of a game.
+    pub(crate) fn of(analysis: &Analysis) -> Kind {
+        match analysis.taxonomy().genres.first() {
+            Some(Genre::Platformer | Genre::Escape) => Kind::Escape,
+            Some(Genre::Race | Genre::Crossing) => Kind::Crossing,
+            Some(Genre::Puzzle) => Kind::BoxPuzzle,
+            Some(Genre::Shooter | Genre::Hunt) => Kind::Shooter,
+            Some(Genre::Collect) => Kind::CollectAndAvoid,
+            Some(Genre::Adventure) => Kind::KeyAndDoor,
+            Some(Genre::Guide) => Kind::Herding,
+            Some(Genre::Defence) => Kind::Defence,
+            Some(Genre::Survive) => Kind::Survival,
+            None => Kind::Tending,
+        }
+    }
+
     /// Draws a word for the avatar's task, for use in a title.
     pub(crate) fn title_word(self, sampler: &mut Sampler) -> &'static str {
         let title_words: Vec<&'static str> = self.title_words().split(' ').collect();

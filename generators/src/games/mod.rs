@@ -23,7 +23,10 @@ pub use push::PushRules;
 pub use rethemed::Rethemed;
 pub use yard::YardRules;
 
-use engine::Game;
+use crate::GenerateError;
+use crate::kernels::has_movers;
+use engine::{Analysis, Game, syntax};
+use english::{capital, headline, one};
 
 /// A game with its description in prose.
 #[derive(Clone, Debug)]
@@ -43,4 +46,33 @@ pub struct GeneratedGame {
     /// The sources of the generated game, such as `kernel/one-spark`: the hand-written design, its variants, and the
     /// scene that supplies the nouns.
     pub patterns: Vec<String>,
+}
+
+impl GeneratedGame {
+    /// Describes a finished game under its own names. The summary and the goal follow from the rules, and the title
+    /// from the name of the game's folder. The comments are removed, because they might reveal a solution.
+    ///
+    /// # Errors
+    /// Returns an error if the rules do not compile without their comments.
+    pub fn finished(
+        game: &Game,
+        folder: &str,
+        patterns: Vec<String>,
+    ) -> Result<GeneratedGame, GenerateError> {
+        let bare = surface::without_comments(game.description().clone());
+        let rules = Game::from_source(&syntax::print(&bare)).map_err(|problems| {
+            GenerateError::Unsuitable(format!("it does not compile without comments: {problems}"))
+        })?;
+        let analysis = Analysis::of(&rules);
+        let kind = Kind::of(&analysis);
+        Ok(GeneratedGame {
+            title: headline(&folder.replace('-', " ")),
+            summary: format!("{}.", capital(&one(&blurb::hero(&analysis)))),
+            goal: blurb::goal(&analysis),
+            real_time: has_movers(rules.description()),
+            kind,
+            patterns,
+            rules,
+        })
+    }
 }

@@ -7,9 +7,16 @@ use std::collections::BTreeMap;
 /// Returns the same rules with sprite types renamed and without comments and images. All lines keep their order, so
 /// both games play identically, including their state hashes.
 pub(super) fn without_surface(description: &Description, names: &BTreeMap<String, String>) -> Description {
-    let mut bare = description.renamed(names);
+    let mut bare = without_comments(description.renamed(names));
+    strip_images(&mut bare.sprites);
+    bare
+}
+
+/// Returns the same rules without comments.
+pub(super) fn without_comments(description: Description) -> Description {
+    let mut bare = description;
     bare.header.trivia = Trivia::default();
-    strip_lines(&mut bare.sprites);
+    strip_comments(&mut bare.sprites);
     bare.mapping.iter_mut().for_each(|line| line.trivia = Trivia::default());
     bare.interactions.iter_mut().for_each(|line| line.trivia = Trivia::default());
     bare.terminations.iter_mut().for_each(|line| line.trivia = Trivia::default());
@@ -19,11 +26,17 @@ pub(super) fn without_surface(description: &Description, names: &BTreeMap<String
     bare
 }
 
-fn strip_lines(lines: &mut [SpriteLine]) {
+fn strip_comments(lines: &mut [SpriteLine]) {
     for line in lines {
         line.trivia = Trivia::default();
+        strip_comments(&mut line.children);
+    }
+}
+
+fn strip_images(lines: &mut [SpriteLine]) {
+    for line in lines {
         line.params.retain(|param| !["img", "autotiling", "randomtiling"].contains(&param.key.text.as_str()));
-        strip_lines(&mut line.children);
+        strip_images(&mut line.children);
     }
 }
 

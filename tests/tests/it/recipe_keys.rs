@@ -17,9 +17,10 @@ const PARTS: &str = "crates/snapshots/src/recipe/parts.rs";
 const PUZZLES: &str = "crates/snapshots/src/sections/puzzles/mod.rs";
 
 /// The recipe sections, each with its heading, and the file and name of the struct into which the section is parsed.
-const SECTIONS: [(&str, &str, &str); 15] = [
+const SECTIONS: [(&str, &str, &str); 16] = [
     ("The recipe as a whole", "crates/snapshots/src/recipe/mod.rs", "Recipe"),
     ("`[invented]`", PARTS, "InventedPart"),
+    ("`[designs]`", "crates/snapshots/src/sections/designs/mod.rs", "DesignsPart"),
     ("`[generated]`", PARTS, "GeneratedPart"),
     ("`[corpus]`", PARTS, "CorpusPart"),
     ("`[puzzles]`, `[locks]`, `[yards]`, `[strays]`", PUZZLES, "PuzzlePart"),

@@ -22,7 +22,7 @@ pub(crate) fn corpus() -> Result<Corpus, Failure> {
         games.push(game.map_err(|error| malformed!("in this binary: {error}"))?);
     }
     games.sort_by(|a, b| a.name.cmp(&b.name));
-    Ok(Corpus { games })
+    Ok(Corpus { games, designs: None })
 }
 
 /// Returns the text of the recipe with the given name in `seeds/`; `None` if there is no such recipe.

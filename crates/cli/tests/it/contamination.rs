@@ -45,7 +45,7 @@ fn corpus() -> Corpus {
         };
         CorpusGame { name: words(), source: source(100 + number), levels: Vec::new(), card }
     };
-    Corpus { games: (0..GAMES).map(game).collect() }
+    Corpus { games: (0..GAMES).map(game).collect(), designs: None }
 }
 
 /// A folder with a sealed release. The release's parts are in `public` and `held`, the whole release is in `revealed`,

@@ -118,3 +118,39 @@ fn wrong_requests_name_the_next_step() {
     }
     assert!(!home.path().join("x").exists() && !home.path().join("b").exists());
 }
+
+/// The release contains the selected designs. Only minting needs the folder of designs.
+#[test]
+fn designs_become_a_release() {
+    const RULES: &str = "BasicGame\n    SpriteSet\n        plum > Immovable\n        wasp > Immovable\n        avatar > MovingAvatar\n    \
+        LevelMapping\n        p > plum\n        x > wasp\n    InteractionSet\n        avatar wall > stepBack\n        \
+        plum avatar > killSprite scoreChange=1\n        avatar wasp > killSprite\n    TerminationSet\n        \
+        SpriteCounter stype=avatar limit=0 win=False\n        SpriteCounter stype=plum limit=0 win=True\n        Timeout limit=60 win=False\n";
+    let home = tempfile::tempdir().unwrap();
+    let game = home.path().join("designs/games/plum-walk");
+    fs::create_dir_all(&game).unwrap();
+    let digest = "0".repeat(64);
+    let origin =
+        format!("{{\"designer\":\"alice\",\"settings\":\"{digest}\",\"draft\":3,\"answers\":\"{digest}\"}}");
+    let level = "wwwwwwwwwwww\nwA   x    pw\nw  x    x  w\nw    x     w\nwp  x   x pw\nwwwwwwwwwwww\n";
+    for (file, text) in [("game.vgdl", RULES), ("lvl0.txt", level), ("design.json", &origin)] {
+        fs::write(game.join(file), text).unwrap();
+    }
+    let recipe = "name = \"ours\"\ndescription = \"designs\"\nseed = \"plums\"\n[criteria]\n\
+                  ask = [\"not-idle\", \"not-random\", \"winnable\"]\nbudget = 50000\n[designs]\ngames = 1\nlevels = 1\n";
+    let file = home.path().join("ours.toml");
+    fs::write(&file, recipe).unwrap();
+    let release = ["release", "ours.toml", "--designs", "designs"];
+    let told = run(home.path(), &release, 2);
+    let told = text(&told.stderr);
+    let line =
+        told.split('`').find(|part| part.starts_with("digest = ")).expect("the line to write").to_owned();
+    fs::write(&file, format!("{recipe}{line}\n")).unwrap();
+    let minted = run(home.path(), &release, 0);
+    assert!(text(&minted.stdout).contains("Plum Walk"), "{}", text(&minted.stdout));
+    run(home.path(), &["verify", "releases/ours"], 0);
+    let again = run(home.path(), &["regenerate", "releases/ours", "--designs", "designs"], 0);
+    assert!(text(&again.stdout).starts_with("identical"), "{}", text(&again.stdout));
+    let without = run(home.path(), &["regenerate", "releases/ours"], 2);
+    assert!(text(&without.stderr).contains("pass the folder with --designs"), "{}", text(&without.stderr));
+}

@@ -49,7 +49,7 @@ pub struct MadeGame {
 impl Candidate {
     /// Creates a candidate from a generated game, with its generator and its index among the candidates for the game's
     /// position.
-    pub(crate) fn generated(made: GeneratedGame, generator: &str, candidate: u32) -> Candidate {
+    pub fn generated(made: GeneratedGame, generator: &str, candidate: u32) -> Candidate {
         let GeneratedGame { rules: game, title, summary, goal, kind, real_time, patterns } = made;
         let origin = Origin::Generated { generator: generator.to_owned(), patterns, candidate };
         let kind = kind.name().to_owned();

@@ -41,6 +41,9 @@ pub struct FoundLevels {
     pub seed: SeedPath,
 }
 
+/// Finished levels, as the source of a game's levels. Each position has one candidate.
+pub struct FinishedLevels(pub Vec<Level>);
+
 /// The request for the levels of a candidate game.
 #[derive(Clone, Copy)]
 pub struct Levels<'a> {

@@ -27,7 +27,7 @@ pub(crate) use found_level::judges_seed;
 pub use inventing::{invent_games, invent_one};
 pub use kept::{Kept, KeptGame};
 pub(crate) use levels::Drawn;
-pub use levels::{FoundLevels, Levels};
+pub use levels::{FinishedLevels, FoundLevels, Levels};
 pub use make::{GameSet, GamesError, NO_RULES, attempt_kernel, make_games, make_one};
 pub use order::{Board, GameEffort, GameOrder};
 pub use puzzles::{PuzzleLevels, PuzzleRules};

@@ -1,9 +1,9 @@
 //! The sources of candidates. To add a source, implement [`Rules`] for rules, or [`BoardSource`] for boards.
 
 use crate::games::FoundLevel;
-use crate::games::PuzzleLevels;
 use crate::games::judges_seed;
 use crate::games::puzzles::PuzzleGenerator;
+use crate::games::{FinishedLevels, PuzzleLevels};
 use agents::systematic_seed;
 use base::{Seed, SeedPath};
 use engine::{Action, Game, Level};
@@ -238,5 +238,32 @@ impl Boards for PuzzleBoards<'_> {
         let far = || GenerateError::Unlucky("no puzzle is far enough from its solution".to_owned());
         let (level, known) = solved.ok_or_else(far)?;
         Ok(Board { level, asks: None, known: Some(known) })
+    }
+}
+
+/// Returns the level of each position. There is nothing to generate.
+impl BoardSource for FinishedLevels {
+    fn name(&self) -> &'static str {
+        "design"
+    }
+
+    fn is_ordered(&self) -> bool {
+        true
+    }
+
+    fn boards<'a>(
+        &'a self,
+        _: &'a Game,
+        place: &PlaceBrief<'a>,
+    ) -> Result<Box<dyn Boards + 'a>, GenerateError> {
+        let level = self.0.get(place.number as usize);
+        let missing = || GenerateError::Unsuitable("the game has too few levels".to_owned());
+        Ok(Box::new(level.ok_or_else(missing)?))
+    }
+}
+
+impl Boards for &Level {
+    fn generate(&self, _: &SeedPath) -> Result<Board, GenerateError> {
+        Ok(Board { level: (*self).clone(), asks: None, known: None })
     }
 }

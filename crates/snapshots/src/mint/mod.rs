@@ -170,7 +170,7 @@ pub fn lay_out(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::mint::plan::corpus::{Corpus, CorpusCard, CorpusGame};
     use crate::recipe::Recipe;
@@ -214,11 +214,11 @@ mod tests {
             };
             CorpusGame { name: words(), source: source.to_owned(), levels: Vec::new(), card }
         };
-        Corpus { games: sources.iter().map(game).collect() }
+        Corpus { games: sources.iter().map(game).collect(), designs: None }
     }
 
     /// Returns a recipe for one corpus game with one level.
-    pub(super) fn recipe(seed: &str) -> Recipe {
+    pub(crate) fn recipe(seed: &str) -> Recipe {
         let text = format!(
             "name = 'one'\ndescription = 'one'\nseed = '{seed}'\n[corpus]\ngames = 1\nlevels = 1\n\
              [criteria]\nask = ['not-idle', 'not-random', 'winnable']\nbudget = 20000\n"

@@ -34,6 +34,8 @@ pub(super) enum Part {
     Generated,
     /// Invented games.
     Invented,
+    /// Designs.
+    Designs,
     /// Puzzles of one kind.
     Puzzles(PuzzleKind),
 }
@@ -41,7 +43,8 @@ pub(super) enum Part {
 impl Part {
     /// Returns all parts of a recipe.
     fn all() -> impl Iterator<Item = Part> {
-        [Part::Corpus, Part::Generated, Part::Invented].into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
+        let plain = [Part::Corpus, Part::Generated, Part::Invented, Part::Designs];
+        plain.into_iter().chain(PuzzleKind::ALL.map(Part::Puzzles))
     }
 
     /// Returns the name of the part's section in a recipe.
@@ -50,6 +53,7 @@ impl Part {
             Part::Corpus => "corpus",
             Part::Generated => "generated",
             Part::Invented => "invented",
+            Part::Designs => "designs",
             Part::Puzzles(kind) => kind.section(),
         }
     }
@@ -61,6 +65,7 @@ impl Part {
             Job::Puzzle(kind, _) => Part::Puzzles(kind),
             Job::Constructive(_) => Part::Generated,
             Job::Invented(..) => Part::Invented,
+            Job::Design(_) => Part::Designs,
         }
     }
 
@@ -70,6 +75,7 @@ impl Part {
             Part::Corpus => recipe.corpus.games,
             Part::Generated => recipe.generated.games,
             Part::Invented => recipe.invented.as_ref().map_or(0, |part| part.games),
+            Part::Designs => recipe.designs.as_ref().map_or(0, |part| part.games),
             Part::Puzzles(kind) => recipe.puzzles_of(kind).map_or(0, |part| part.games),
         };
         games as usize
@@ -219,6 +225,9 @@ pub(super) fn select(
             let advice = if failed.rejections.contains_key(NO_RULES) {
                 let small = format!("there are no rules for further jobs: either lower `{part}.games`");
                 advice(recipe, &small, "leave out the earlier releases that have used them, or add kernels")
+            } else if part == Part::Designs.name() {
+                let small = "either lower `designs.games`";
+                advice(recipe, small, "pass a folder with more designs, or relax the criteria")
             } else {
                 let small = format!("either raise `{part}.candidates`");
                 advice(recipe, &small, "raise the tries or relax the criteria")

@@ -17,6 +17,7 @@ use crate::recipe::known::Known;
 use crate::recipe::parts::{CorpusPart, GeneratedPart, InventedPart, Taxonomy};
 use crate::recipe::secret::Secret;
 use crate::sections::ceilings::CeilingsPart;
+use crate::sections::designs::DesignsPart;
 use crate::sections::marks::MarksPart;
 use crate::sections::memory::part::MemoryPart;
 use crate::sections::puzzles::{PuzzleKind, PuzzlePart};
@@ -64,6 +65,9 @@ pub struct Recipe {
     /// Invented games.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub invented: Option<InventedPart>,
+    /// Games from a pool of designs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub designs: Option<DesignsPart>,
     /// New puzzles about pushing things.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub puzzles: Option<PuzzlePart>,
@@ -206,6 +210,7 @@ impl Recipe {
         let parts = self.puzzle_parts().map(|part| (part.games, part.levels));
         let parts = parts
             .chain(self.invented.as_ref().map(|part| (part.games, part.levels)))
+            .chain(self.designs.as_ref().map(|part| (part.games, part.levels)))
             .chain([(self.corpus.games, self.corpus.levels), (self.generated.games, self.generated.levels)]);
         parts.fold(0, |all, (games, levels)| all.saturating_add(games.saturating_mul(levels)))
     }
@@ -215,10 +220,11 @@ impl Recipe {
         self.corpus.games.saturating_add(self.new_games())
     }
 
-    /// Returns the number of games made by generators.
+    /// Returns the number of games that are not corpus games.
     pub fn new_games(&self) -> u32 {
         let invented = self.invented.as_ref().map_or(0, |part| part.games);
-        let generated = self.generated.games.saturating_add(invented);
+        let designs = self.designs.as_ref().map_or(0, |part| part.games);
+        let generated = self.generated.games.saturating_add(invented).saturating_add(designs);
         self.puzzle_parts().fold(generated, |all, part| all.saturating_add(part.games))
     }
 

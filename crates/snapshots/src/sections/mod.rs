@@ -2,6 +2,7 @@
 //! entry in [`SECTIONS`].
 
 pub mod ceilings;
+pub(crate) mod designs;
 pub(crate) mod frozen;
 pub mod marks;
 pub mod memory;
@@ -15,8 +16,9 @@ use section::Section;
 
 /// The sections, in the order in which they process a game. Reference players come last, because they must play the
 /// games under the published names.
-pub(crate) const SECTIONS: [&dyn Section; 8] = [
+pub(crate) const SECTIONS: [&dyn Section; 9] = [
     &tiers::TiersSection,
+    &designs::DesignsSection,
     &PuzzleKind::Pushing,
     &PuzzleKind::Locks,
     &PuzzleKind::Yards,

@@ -2,10 +2,9 @@
 
 use crate::console::Console;
 use crate::failure::Answer;
-use crate::input::embedded;
 use crate::input::trusted::warn_of_readers;
 use crate::protected;
-use crate::verbs::releases::release::{read_secret_file, report, tools};
+use crate::verbs::releases::release::{corpus_with, read_secret_file, report, tools};
 use snapshots::mint::Shards;
 use std::path::PathBuf;
 
@@ -20,6 +19,9 @@ pub(crate) struct Args {
     /// The snapshot's folder (new or empty)
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// The folder of designs, for a recipe with the section [designs]
+    #[arg(long, value_name = "DIR")]
+    designs: Option<PathBuf>,
     /// The secret of a sealed release
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
@@ -28,7 +30,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     protected::check(&args.out)?;
     let shards = Shards::open(&args.shards)?;
-    let corpus = embedded::corpus()?;
+    let corpus = corpus_with(args.designs.as_deref())?;
     args.secret.iter().for_each(|file| warn_of_readers(file, console));
     let secret = args.secret.as_deref().map(read_secret_file).transpose()?;
     let minted = shards.merge(secret.as_ref(), &args.out, tools(&corpus))?;

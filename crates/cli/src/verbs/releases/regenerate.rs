@@ -8,7 +8,7 @@ use crate::interrupt;
 use crate::marks;
 use crate::protected;
 use crate::shell;
-use crate::verbs::releases::release::{LONG, ProgressBars, forecast, forecast_words};
+use crate::verbs::releases::release::{LONG, ProgressBars, corpus_with, forecast, forecast_words};
 use base::MessagePath;
 use base::count;
 use serde_json::json;
@@ -40,6 +40,9 @@ pub(crate) struct Args {
     /// Resume an interrupted run with the same --out
     #[arg(long, requires = "out")]
     resume: bool,
+    /// The folder of designs from which the snapshot was minted, if its recipe has the section [designs]
+    #[arg(long, value_name = "DIR")]
+    designs: Option<PathBuf>,
     /// Maximum number of forward-model calls that the recipe may allow for one level [default: 268435456,
     /// about ten times what the built-in recipes allow]
     #[arg(long, value_name = "CALLS", default_value_t = MAX_WORK, hide_default_value = true)]
@@ -51,6 +54,9 @@ impl Args {
     fn resumed(&self, out: &Path) -> String {
         let mut command: Vec<OsString> = vec!["regenerate".into(), self.snapshot.as_os_str().to_owned()];
         command.extend(["--out".into(), out.as_os_str().to_owned()]);
+        if let Some(designs) = &self.designs {
+            command.extend(["--designs".into(), designs.as_os_str().to_owned()]);
+        }
         command.extend(threads::flags());
         command.push("--resume".into());
         shell::command(command)
@@ -59,7 +65,7 @@ impl Args {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     args.out.as_deref().map_or(Ok(()), protected::check)?;
-    let corpus = embedded::corpus()?;
+    let corpus = corpus_with(args.designs.as_deref())?;
     let release = Regeneration::of(&args.snapshot)?;
     if let (true, Some(out)) = (args.resume, &args.out)
         && let Some((manifest, compared)) = release.compare_complete(out)?

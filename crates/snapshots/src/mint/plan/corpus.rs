@@ -1,6 +1,7 @@
 //! The corpus of hand-written games. Releases contain new levels for corpus games, and commands accept corpus
 //! games by name.
 
+use crate::sections::designs::{Design, DesignPool};
 use serde::{Deserialize, Serialize};
 
 /// A corpus game's `CARD.toml`.
@@ -55,16 +56,23 @@ impl CorpusGame {
     }
 }
 
-/// A collection of all corpus games.
+/// The games that recipes may take from outside: all corpus games, and a pool of designs if one was read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Corpus {
     /// The games, sorted by name.
     pub games: Vec<CorpusGame>,
+    /// The pool for the section `[designs]`.
+    pub designs: Option<DesignPool>,
 }
 
 impl Corpus {
     /// Returns the game with the given name; `None` if the corpus has no such game.
     pub fn find(&self, name: &str) -> Option<&CorpusGame> {
         self.games.iter().find(|game| game.name == name)
+    }
+
+    /// Returns a design by its index in the pool; `None` if there is no pool or no such design.
+    pub(crate) fn design(&self, at: usize) -> Option<&Design> {
+        self.designs.as_ref()?.designs.get(at)
     }
 }

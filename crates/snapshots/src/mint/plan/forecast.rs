@@ -93,6 +93,7 @@ impl Plan<'_> {
             Job::Constructive(_) => (new, false),
             Job::Invented(..) => (self.recipe.invented.as_ref().map_or(0, |part| part.levels), false),
             Job::Corpus(_) => (old, false),
+            Job::Design(_) => (self.recipe.designs.as_ref().map_or(0, |part| part.levels), false),
             Job::Puzzle(kind, _) => (puzzle_levels(kind), kind != PuzzleKind::Strays),
         };
         let criteria = self.criteria_of(job);
@@ -104,12 +105,13 @@ impl Plan<'_> {
                 let gated = if criteria.includes(Criterion::Skill) { skill } else { gated };
                 f64::from(levels) * if is_gated(criteria) { gated } else { plain }
             }
-            Job::Corpus(_) => of(CORPUS, levels, criteria),
+            // Like the levels of corpus games, designs pass no stages for generated rules.
+            Job::Corpus(_) | Job::Design(_) => of(CORPUS, levels, criteria),
             // The generators of puzzles solve every board within their own budgets.
             Job::Puzzle(kind, _) => f64::from(levels) * kind.seconds(),
         };
         let spread = match job {
-            Job::Corpus(_) | Job::Puzzle(..) => SPREAD_FIXED_RULES,
+            Job::Corpus(_) | Job::Puzzle(..) | Job::Design(_) => SPREAD_FIXED_RULES,
             Job::Invented(..) => SPREAD_INVENTED,
             _ if is_gated(criteria) => SPREAD_GATED,
             _ => SPREAD_PLAIN,

@@ -14,6 +14,7 @@ use crate::recipe::apportion::apportion;
 use crate::recipe::error::RecipeError;
 use crate::recipe::secret::Secret;
 use crate::sections::SECTIONS;
+use crate::sections::designs;
 use crate::sections::frozen::{FrozenGame, JobResult};
 use crate::sections::marks::MarkPlayers;
 use crate::sections::puzzles::{self, PuzzleKind};
@@ -65,6 +66,8 @@ pub enum Job {
     Corpus(usize),
     /// A new puzzle, by its kind and its number within the kind.
     Puzzle(PuzzleKind, u32),
+    /// A design, by its index in the pool.
+    Design(usize),
 }
 
 /// The number of additional judges per game ([`GameEffort::judges`]). It is lower than in `arcade generate games`,
@@ -88,6 +91,7 @@ impl<'a> Plan<'a> {
         let of_corpus = recipe.corpus.criteria.as_ref().map(Criteria::check).transpose()?;
         let corpus_criteria = of_corpus.unwrap_or_else(|| criteria.clone());
         let seed = recipe.root_seed(secret)?;
+        designs::check_pool(recipe, corpus.designs.as_ref())?;
         let compile = |game: &crate::CorpusGame| {
             Game::from_source(&game.source)
                 .map_err(|problems| MintError::BrokenCorpus { name: game.name.clone(), problems })
@@ -109,7 +113,7 @@ impl<'a> Plan<'a> {
             sets,
             players: None,
         };
-        let new = plan.puzzles().chain(plan.invented()).chain(plan.generated());
+        let new = plan.puzzles().chain(plan.invented()).chain(plan.designs()).chain(plan.generated());
         plan.jobs = new.chain(plan.of_corpus()?).collect();
         Ok(plan)
     }
@@ -152,6 +156,7 @@ impl<'a> Plan<'a> {
             Job::Invented(method, number) => format!("invented-{}-{number}", method.name()),
             Job::Corpus(at) => format!("corpus-{}", self.corpus.games[at].name),
             Job::Puzzle(kind, number) => format!("{}-{number}", kind.name()),
+            Job::Design(at) => format!("design-{}", self.corpus.design(at).map_or("", |design| &design.name)),
         }
     }
 
@@ -221,6 +226,14 @@ impl<'a> Plan<'a> {
         all.flat_map(|(method, count)| (0..count).map(move |number| Job::Invented(method, number)))
     }
 
+    /// Returns the jobs that judge designs: one for each design in the pool that has the requested number of levels.
+    fn designs(&self) -> impl Iterator<Item = Job> + use<> {
+        let part = self.recipe.designs.as_ref().filter(|part| part.games > 0);
+        let pool = part.zip(self.corpus.designs.as_ref());
+        let fitting = pool.map_or_else(Vec::new, |(part, pool)| pool.fitting(part));
+        fitting.into_iter().map(Job::Design)
+    }
+
     /// Returns the jobs that generate candidates for puzzles.
     pub(super) fn puzzles(&self) -> impl Iterator<Item = Job> + use<> {
         let all = |kind: PuzzleKind| {
@@ -262,6 +275,9 @@ impl<'a> Plan<'a> {
                     &seed,
                 )
             }
+            Job::Design(at) => {
+                designs::make(self.corpus.design(at), &self.criteria, &[&self.forms, &self.before], &seed)
+            }
             Job::Constructive(number) => self.draw(number, seed),
             Job::Invented(method, number) => self.invent(method, number, seed),
         };
@@ -287,6 +303,9 @@ impl<'a> Plan<'a> {
             Job::Constructive(_) => root.child("constructive", 0),
             Job::Invented(method, _) => root.child("invented", 0).child(method.name(), 0),
             Job::Puzzle(kind, number) => root.child(kind.name(), number.into()),
+            Job::Design(at) => {
+                root.child("design", 0).child(self.corpus.design(at).map_or("", |design| &design.name), 0)
+            }
         }
     }
 

@@ -23,7 +23,10 @@ pub(crate) use progress::{ProgressBars, Remarks, Reporter};
 pub(crate) use sealed::{check_beacon, read as read_secret_file, secret_file};
 use serde_json::json;
 use snapshots::mint::{Minted, Shard};
-use snapshots::{Corpus, Draft, MAX_RECIPE, Order, Outcome, Recipe, RecipeError, Reveal, Tools, follow};
+use snapshots::{
+    Corpus, DesignPool, Draft, MAX_RECIPE, Order, Outcome, PoolError, Recipe, RecipeError, Reveal, Tools,
+    follow,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 pub(crate) use summary::sign_command;
@@ -57,6 +60,9 @@ pub(crate) struct Args {
     /// The previous release's folder. No content of the previous release or an earlier one is minted again
     #[arg(long, value_name = "DIR", value_parser = crate::paths::release_parser())]
     parent: Option<PathBuf>,
+    /// The folder of designs, as written by `arcade design`, for a recipe with the section [designs]
+    #[arg(long, value_name = "DIR", conflicts_with = "reveal")]
+    designs: Option<PathBuf>,
     /// The secret of a sealed release, as written by --commit
     #[arg(long, value_name = "FILE")]
     secret: Option<PathBuf>,
@@ -85,6 +91,7 @@ impl Args {
         let shard = self.shard.map(|shard| PathBuf::from(shard.to_string()));
         let options = [
             ("--parent", self.parent.as_deref()),
+            ("--designs", self.designs.as_deref()),
             ("--secret", self.secret.as_deref()),
             ("--beacon", self.beacon.as_deref()),
             ("--shard", shard.as_deref()),
@@ -154,7 +161,7 @@ impl Request<'_> {
 
 pub(crate) fn run(args: &Args, console: &Console) -> Answer {
     let request = Request::of(args, console)?;
-    let corpus = embedded::corpus()?;
+    let corpus = corpus_with(args.designs.as_deref())?;
     let tools = tools(&corpus);
     match request {
         Request::Commit(recipe) => {
@@ -173,6 +180,15 @@ pub(crate) fn run(args: &Args, console: &Console) -> Answer {
         }
         Request::Mint(order) => mint(args, &order, tools, console),
     }
+}
+
+/// Returns the embedded corpus, with the designs in a folder.
+pub(crate) fn corpus_with(designs: Option<&Path>) -> Result<Corpus, Failure> {
+    let designs = designs.map(DesignPool::read).transpose().map_err(|error| match error {
+        PoolError::Io { .. } => Failure::Environment(error.into()),
+        _ => Failure::malformed(error),
+    })?;
+    Ok(Corpus { designs, ..embedded::corpus()? })
 }
 
 /// Returns the minting tools that this binary provides.

@@ -36,7 +36,8 @@ pub(super) fn outline(prepared: &Prepared<'_>, order: &Order, corpus: &Corpus, c
     let invented = recipe.invented.as_ref().map(|part| (part.games, part.levels, "invented game"));
     let puzzle =
         |kind: PuzzleKind| recipe.puzzles_of(kind).map(|part| (part.games, part.levels, kind.noun()));
-    let made = invented.into_iter().chain([(new.games, new.levels, "new game")]);
+    let designs = recipe.designs.as_ref().map(|part| (part.games, part.levels, "design"));
+    let made = invented.into_iter().chain(designs).chain([(new.games, new.levels, "new game")]);
     let made = made.chain(PuzzleKind::ALL.into_iter().filter_map(puzzle)).filter(|(games, ..)| *games > 0);
     let made = made.map(|(games, levels, noun)| {
         format!("{} of {}", count(games as usize, noun), count(levels as usize, "level"))
