@@ -37,8 +37,8 @@ pub struct ReleasedGame {
     pub game: Game,
     /// The levels, in card order.
     pub levels: Vec<ReleasedLevel>,
-    /// The game's sibling: a renamed copy that was withheld by a secret random choice. `None` if it does not exist or
-    /// has not been revealed.
+    /// The game's sibling: a renamed copy. A secret random choice decided which of the two was withheld. `None` if
+    /// there is no sibling, or if it has not been revealed.
     pub sibling: Option<ReleasedSibling>,
 }
 

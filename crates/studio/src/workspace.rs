@@ -175,7 +175,7 @@ impl GameEntry {
         }
     }
 
-    /// Returns the number of the game's levels without reading the level files.
+    /// Returns the number of levels in the game, without reading the level files.
     pub(crate) fn count(&self) -> usize {
         match &self.place {
             Place::Texts { levels, .. } => levels.len(),

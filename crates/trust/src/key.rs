@@ -73,7 +73,7 @@ impl PublicKey {
         self.0.to_base64()
     }
 
-    /// Returns the public key file's content.
+    /// Returns the contents of the public key file.
     pub fn to_file(&self) -> String {
         format!("untrusted comment: minisign public key {}\n{}\n", self.id(), self.to_base64())
     }

@@ -32,8 +32,8 @@ pub struct Observation {
     pub resources: Vec<(String, i32)>,
     /// The player's avatar, regardless of its type's name, or `None` once the avatar is gone.
     pub avatar: Option<AvatarView>,
-    /// The visible non-avatar sprites, in drawing order, that follow paths, or that can move and have an
-    /// orientation.
+    /// The visible non-avatar sprites that follow paths, or that can move and have an orientation. Sorted in
+    /// drawing order.
     pub movers: Vec<MoverView>,
     /// The countdowns of visible sprites ([`Game::countdowns`]).
     pub countdowns: Vec<CountdownView>,

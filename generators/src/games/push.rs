@@ -89,7 +89,7 @@ impl PushRules {
 
     /// The number of ticks that a randomly wandering sprite takes to move one cell.
     pub(crate) const COOLDOWN: usize = 3;
-    /// The number of ticks that the spark takes to burn one cell of the fuse, which limits the time.
+    /// The number of ticks that the spark takes to burn one cell of the fuse. The fuse is the level's time limit.
     pub(crate) const BURN: usize = 25;
 
     /// The floor character in levels of [`PushRules::game`].

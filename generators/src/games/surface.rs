@@ -61,8 +61,8 @@ fn declares_sprites(lines: &[SpriteLine], name: &str, above: bool) -> bool {
     })
 }
 
-/// Returns the built-in characters that the game does not map and whose types it does not declare with a class. Each
-/// comes with its type. These characters remain unchanged, because a line for them would add a rule.
+/// Returns the built-in characters, each with its type, that the game does not map and whose type it does not
+/// declare with a class. A renamed copy does not map them, because a mapping would add a rule.
 pub(super) fn unmapped_builtins(description: &Description) -> impl Iterator<Item = (char, &'static str)> {
     let undeclared = |symbol: char| {
         let name = unmapped(symbol, description)?;

@@ -309,9 +309,9 @@ fn choose(
     Some(chosen)
 }
 
-/// Draws a partition of the ports, which are the mechanics' open roles. Ports in one class are filled by one sprite
-/// type. Merges pairs until all mechanics are connected by shared types, every type that should move has a rule of
-/// motion, and every type is needed. May then merge one more pair. Returns `None` if the pairs left do not suffice.
+/// Partitions the ports (the mechanics' open roles) at random. One sprite type fills all ports in a class. Merges
+/// pairs of classes until shared types connect all mechanics, a rule moves every type that should move, and every
+/// type is needed. May then merge one more pair. Returns `None` if no remaining pair of classes can be merged.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }

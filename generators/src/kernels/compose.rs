@@ -318,7 +318,7 @@ fn is_limit(line: &str) -> bool {
     line.contains("Timeout") && line.contains("win=False")
 }
 
-/// Extracts the traits that level builders need from the rules.
+/// Extracts from the rules the traits that level builders need.
 fn traits(description: &Description) -> Traits {
     let mut traits = Traits::default();
     for (_, line) in description.sprite_lines() {

@@ -1,4 +1,4 @@
-//! Games composed around a dilemma, with a course of levels that become harder.
+//! Games composed around a dilemma, with levels of increasing difficulty.
 //!
 //! A kernel (`file/kernel.rs`, files in `generators/kernels/`) is a hand-written design: the rules for one dilemma and
 //! the maps for its levels. A scene (`words/scene.rs`, files in `generators/scenes/`) supplies the nouns of a theme.

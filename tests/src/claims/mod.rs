@@ -95,7 +95,7 @@ pub struct Unless {
 pub struct Ending {
     /// `true` if the ending wins.
     pub win: bool,
-    /// The condition of the ending.
+    /// The condition that triggers the ending.
     pub when: When,
     /// The number of distinct types required among the counted sprites; `None` if any number is allowed.
     pub kinds: Option<usize>,

@@ -491,7 +491,7 @@ fn refute_turns(case: &Case, seed: Seed) -> Option<String> {
     })
 }
 
-/// Returns the game without the parameter at a position in its text.
+/// Returns the text of a game without the parameter at the given byte offset.
 fn without(source: &str, position: usize) -> Option<String> {
     fn drop_at(params: &mut Vec<Param>, position: usize) -> bool {
         let before = params.len();

@@ -81,7 +81,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let seed = Seed::from_text(&args.seed);
     let columns = ["kernel", "made", "of", "forms made", "calls, millions", "why not"];
-    let note = "The reasons count levels and games, most frequent first.";
+    let note = "The reasons for rejected levels and games, with their counts, most frequent first.";
     let mut table = Table::new("kernels", "Games of each kernel", note, &columns);
     for kernel in kernels {
         let is_wanted =

@@ -64,8 +64,8 @@ struct Advantage {
     pays: bool,
     /// `true` if the advantage is large enough, but not significant.
     unsure: bool,
-    /// `true` if more episodes might show the advantage. This is the case if it is large enough in wins, or at least
-    /// half as large as required in scores.
+    /// `true` if more episodes might establish the advantage: the difference in wins is large enough, or the
+    /// difference in scores is at least half the required difference.
     leads: bool,
 }
 

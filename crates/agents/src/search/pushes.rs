@@ -278,9 +278,9 @@ impl Board<'_> {
         inside.then(|| row as usize * self.columns + column as usize)
     }
 
-    /// Returns, for each cell, the minimum number of pushes after which a sprite of the type may no longer have a
-    /// counted type. The result is a fixed point, which is computed backwards from the cells in which the sprite can
-    /// end.
+    /// Returns, for each cell, the minimum number of pushes after which a sprite of type `stype` may be gone or
+    /// have a type outside `counted`. The result is a fixed point. It is computed backwards from the cells in which
+    /// the sprite can be removed or transformed.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
         // The types that the sprite may have while it is still counted. Indices below refer to this list.

@@ -42,8 +42,7 @@ base::with_defaults! {
 pub struct Olets {
     config: OletsConfig,
     streams: Streams,
-    /// The nodes of the tree, with the root first. Between decisions, only the retained nodes are stored, and they
-    /// have not been refreshed yet.
+    /// The nodes of the tree, root first. Between decisions, the tree holds only the retained nodes.
     tree: Vec<Node>,
     /// The action that belongs to each branch of the tree.
     actions: Vec<Action>,

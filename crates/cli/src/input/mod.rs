@@ -239,7 +239,7 @@ pub(crate) fn named_games(names: &[String]) -> Result<Vec<GameInput>, Failure> {
     Ok(games)
 }
 
-/// Returns the failure for a folder without a game, with advice. The folder may be a release, whose games are
+/// Returns the error for a folder that contains no game, with a hint: the folder may be a release, whose games are
 /// in subfolders.
 fn no_game_in(folder: &Path) -> Failure {
     let name = folder.in_message();

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The feedback on a truncated answer.
-const CUT_OFF: &str = "it was cut off before it came to an action";
+const CUT_OFF: &str = "it was cut off before it stated an action";
 /// The feedback on an answer that exceeds the limit on its length.
 const TOO_LONG: &str = "it exceeds the limit on its length";
 /// The feedback on a refusal.

@@ -76,7 +76,7 @@ impl Prompter {
             Outcome::Won => "You have won",
             Outcome::Lost => "You have lost",
             Outcome::Ended | Outcome::Stopped(_) => "It is over without a winner",
-            Outcome::Ongoing => "Its limit of actions was reached, which is not a win",
+            Outcome::Ongoing => "The limit of actions was reached, which is not a win",
         };
         let events = before
             .as_ref()

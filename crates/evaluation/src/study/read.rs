@@ -279,9 +279,9 @@ impl Names {
     }
 }
 
-/// The persons in results folders, each with its episodes, and the evaluation settings of each folder. A person is a
-/// player with a fixed configuration, such as its mode and aids. Unlike in a study, different games in several folders
-/// may share an ID.
+/// The players in results folders, each with its episodes, and each folder's evaluation settings. Here a player
+/// includes its configuration, such as its mode and aids. Unlike in a study, games from different folders may have
+/// the same ID.
 pub(crate) type Persons = (Vec<(Player, Vec<EpisodeMetrics>)>, Vec<Settings>);
 
 /// Reads the persons in results folders. A difference in configuration makes two persons, as in [`Study::read`].

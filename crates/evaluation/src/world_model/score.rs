@@ -1,4 +1,4 @@
-//! The score of a game that an examined player wrote.
+//! The score of a game written by the player under test.
 
 use super::planner::{self, PlannerScore};
 use super::recording::TransitionKind;

@@ -38,8 +38,8 @@ pub fn make_board(
 pub(crate) struct BoardSearch {
     /// The board as returned by [`make_board`].
     pub(crate) made: Option<MadeBoard>,
-    /// The fraction of constraints met by the board that came closest to meeting the order. The fraction is 1.0 if a
-    /// board has a win that meets the order.
+    /// The fraction of constraints met by the board that came closest to meeting the request ([`BoardOrder`]). The
+    /// fraction is 1.0 if some board has a win that meets the request.
     pub(crate) feasibility: f64,
     /// The number of forward-model calls spent on the search.
     pub(crate) calls: u64,

@@ -1,4 +1,4 @@
-//! A game during its passage through the stages.
+//! A game as it passes through the stages of the pipeline.
 
 use super::sources::Rules;
 use super::stage::{Refusal, Stage, walk};

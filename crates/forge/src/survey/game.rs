@@ -7,7 +7,7 @@ use base::{Digest, Seed};
 use engine::{Game, Level};
 use validators::{CheckedCriteria, Criteria, CriteriaError, Criterion, CriterionSet, Effort, Judging, Panel};
 
-/// A survey that judges games one at a time and all in the same way.
+/// A survey that judges games one at a time, all by the same criteria.
 pub struct GameSurvey {
     criteria: CheckedCriteria,
     panel: Panel,

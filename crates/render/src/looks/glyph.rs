@@ -292,8 +292,7 @@ fn neutral(analysis: &Analysis, stype: SpriteType) -> Glyph {
     }
 }
 
-/// Returns `true` if a type is a friend to be kept safe: it is harmless, but other types can turn it into a
-/// forbidden type.
+/// Returns `true` if a type must be protected: it is harmless, but other types can turn it into a forbidden type.
 pub(crate) fn is_spoilt(analysis: &Analysis, stype: SpriteType) -> bool {
     let prevented = |to: SpriteType| analysis.aims().prevent.contains(&to);
     analysis.harm(stype) == Harm::None && analysis.turns(stype).iter().any(|(to, _)| prevented(*to))

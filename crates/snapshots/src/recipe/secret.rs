@@ -193,10 +193,10 @@ pub fn read_secret(file: &Path) -> Result<Secret, SnapshotError> {
     }
 }
 
-/// Reads the secret among the files of a revealed release, below the folder `root`.
+/// Reads the secret from the file `file` of the revealed release in the folder `root`.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, or is not a secret.
+/// Returns an error if the file cannot be read or does not contain a secret.
 pub(crate) fn read_revealed(root: &Path, file: &str) -> Result<Secret, SnapshotError> {
     parse(&folder::read(root, file, SECRET_LIMIT)?, &folder::join(root, file))
 }

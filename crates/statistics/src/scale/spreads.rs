@@ -27,8 +27,8 @@ pub struct Spreads {
     /// The standard deviation of the component of a game's difficulty for readers (players that see only prompts) that
     /// is independent of its difficulty for planners.
     pub game_rest: f64,
-    /// The standard deviation of the component of a level's difficulty for readers (players that see only prompts) that
-    /// is independent of its difficulty for planners.
+    /// The standard deviation of the part of a level's difficulty for readers that is independent of its difficulty
+    /// for planners. Readers are players that see only prompts.
     pub level_rest: f64,
     /// The standard deviation of the match effect between a reader (a player that sees only prompts) and a game.
     pub reader: f64,

@@ -211,8 +211,8 @@ impl<'a> Model<'a> {
         by.top.max(one.top).max(1.0)
     }
 
-    /// Returns `true` if sprites of the type are larger or smaller than a cell. The first sprite of such a
-    /// type has a different size until it moves, so it may appear to have come from elsewhere.
+    /// Returns `true` if sprites of the type are larger or smaller than a cell. The first sprite of such a type is
+    /// not scaled until it moves, so it may appear to have come from a different cell.
     pub(super) fn is_scaled(&self, stype: SpriteType) -> bool {
         let traits = &self.info(stype).traits;
         traits.width_factor != 1.0 || traits.height_factor != 1.0

@@ -45,7 +45,7 @@ pub(crate) const CHANCE: &str = " with a chance of ";
 pub(crate) enum Value {
     /// The name of a type.
     Name(SpriteType),
-    /// The name of a type, in the singular or plural form for that number of sprites.
+    /// The name of a type, in the singular or plural form that the given number of sprites requires.
     Many(SpriteType, i64),
     /// The name of a type with its indefinite article.
     A(SpriteType),

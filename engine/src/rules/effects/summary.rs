@@ -93,7 +93,8 @@ pub(crate) struct Summary {
     pub(crate) counts: Option<SpriteType>,
     /// The spawn points that create a different type after the effect, if any.
     pub(crate) redirects: Option<Redirection>,
-    /// The partner type and the effect keyword's index against which the first sprite's type is shielded, if any.
+    /// The effect from which the first sprite's type is shielded, if any: the partner's type and the index of the
+    /// effect's keyword.
     pub(crate) shield: Option<(SpriteType, u16)>,
     /// The index of the timed effect that the effect schedules, if any.
     pub(crate) schedules: Option<u16>,

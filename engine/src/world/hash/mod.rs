@@ -177,8 +177,8 @@ impl World {
         }
     }
 
-    /// Returns the slots of the sprites that have changed since [`World::settle_hash`]. Moves by sprites in
-    /// flight are not recorded.
+    /// Returns the slots of the sprites that have changed since the last call of [`World::settle_hash`]. Foreseen
+    /// moves, which no tick computes one by one, are not recorded.
     #[inline(always)]
     pub(crate) fn dirty(&self) -> &[super::Slot] {
         &self.dirty

@@ -38,7 +38,7 @@ pub(crate) mod flag {
     pub(crate) const FREE: u32 = 1024;
     /// The sprite is not completely on the screen.
     pub(crate) const OFF: u32 = 2048;
-    /// The sprite is no larger than a cell, and also covers the cell to the right.
+    /// The sprite is no larger than a cell, but it overlaps the cell to the right of its own.
     pub(crate) const RIGHT: u32 = 4096;
     /// The sprite is no larger than a cell, and also covers the cell below.
     pub(crate) const BELOW: u32 = 8192;

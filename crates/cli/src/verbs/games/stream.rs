@@ -163,8 +163,8 @@ struct Items<'a> {
 }
 
 impl Items<'_> {
-    /// Makes the items on all threads, and outputs them in the order of their indices. Returns the number of indices
-    /// without a level.
+    /// Generates the items on all threads, and outputs them in index order. Returns the number of indices for which
+    /// no level was generated.
     fn make(&mut self, stream: &Stream) -> Result<u64, Failure> {
         let Args { from, count, .. } = *self.args;
         let hint = match self.draft {

@@ -165,7 +165,7 @@ pub struct Archive {
     /// The manifest, and the problems as [`check_integrity`] reports them. Reading stops at the first fault in the
     /// structure of the archive itself.
     pub integrity: Integrity,
-    /// The digest of the uncompressed bytes that were read. In a sound archive, these are all of its bytes.
+    /// The digest of the uncompressed bytes that were read. A sound archive is read completely.
     pub digest: Digest,
     /// The number of uncompressed bytes read.
     pub unpacked: u64,

@@ -85,7 +85,7 @@ impl<'a> Model<'a> {
         self.has_readers
     }
 
-    /// Returns the number of a game's effects.
+    /// Returns how many effects a game has.
     pub(super) fn effects(&self, game: usize) -> usize {
         self.layouts[game].size
     }

@@ -28,7 +28,7 @@ struct Space<'a> {
     layout: &'a Layout,
     /// For each cell, the bit of its item; `None` if the cell has no item that can be taken, opened or worn out.
     bits: Vec<Option<u32>>,
-    /// The bits of keys, by kind.
+    /// For each kind of key, the bits of these keys in a packed state.
     keys: [Packed; 2],
     /// The bits of doors, by kind.
     doors: [Packed; 2],

@@ -32,8 +32,8 @@ impl RequestedMailbox {
         Ok(RequestedMailbox { folder: folder.into(), prompts, reasks })
     }
 
-    /// Returns the player's entry in results. The player's name is the value of `--name`, by default the last
-    /// component of the folder's path.
+    /// Returns the player's entry in the results. Its name is the value of `--name`, or else the last component of
+    /// the folder's path.
     pub(super) fn entrant(&self, args: &Args, subjects: &[Subject]) -> Result<Entrant, Failure> {
         let digest = match subjects.first() {
             Some(subject) => {
