@@ -46,6 +46,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, SupportsFloat
 
@@ -60,6 +61,7 @@ from numpy.typing import NDArray
 from ._arguments import Seed, did_you_mean, seed_text
 from ._lanes import Board, EpisodeLanes, Kind, Levels, Reward
 from .games import Game, State, corpus, game_of, seed_child, seed_from_text
+from .rewards import RewardWeights, reward_components
 from .streams import Stream, StreamItem
 
 __all__ = ["GameEnv", "GameVectorEnv", "StreamEnv", "register"]
@@ -223,7 +225,8 @@ class GameEnv(gymnasium.Env[Any, np.int64]):
 
 class StreamEnv(GameEnv):
     """A game as a Gymnasium environment, with a new verified level in each episode. ``info["level"]`` is the index of
-    the level in :attr:`stream`.
+    the level in :attr:`stream`. With weights as ``reward``, the last ``info`` of an episode has ``components``, the
+    components of the reward.
     """
 
     def __init__(
@@ -236,6 +239,7 @@ class StreamEnv(GameEnv):
         num_levels: int = 0,
         avoid: Sequence[str | Path] = (),
         size: tuple[int, int] | None = None,
+        reward: Reward | RewardWeights = "score",
         **arguments: Any,
     ) -> None:
         """Creates an environment.
@@ -249,6 +253,8 @@ class StreamEnv(GameEnv):
             avoid: the folders or archives of releases whose levels are not played.
             size: the number of columns and the number of rows of generated levels and of observed boards. By default,
                 levels have sizes similar to those of the game's own levels, and boards have the largest size.
+            reward: ``score``, ``outcome``, or weights. With weights, only the last step of an episode has a reward,
+                which compares the episode with the witness of the level.
             arguments: further arguments of :class:`GameEnv`.
 
         Raises:
@@ -270,7 +276,9 @@ class StreamEnv(GameEnv):
             sizes = [level.size for level in game.levels] or [_SIZE]
             size = max(columns for columns, _ in sizes), max(rows for _, rows in sizes)
         self._seed, self._episodes = "", 0
-        super().__init__(game if game.levels else self.stream[0].alone(), size=size, **arguments)
+        self._weights = reward if isinstance(reward, RewardWeights) else None
+        plain = "outcome" if isinstance(reward, RewardWeights) else reward
+        super().__init__(game if game.levels else self.stream[0].alone(), size=size, reward=plain, **arguments)
 
     @property
     def item(self) -> StreamItem:
@@ -298,6 +306,22 @@ class StreamEnv(GameEnv):
         arguments = {**self._lanes.arguments, "game": self.stream[position].alone(), "level": None}
         self._lanes = EpisodeLanes(**arguments)
         return super().reset(options={"seed": options.get("seed", episode)})
+
+    def step(self, action: np.int64 | int) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
+        """Plays one tick with an action.
+
+        Raises:
+            gymnasium.error.ResetNeeded: if the episode is over, or no episode was started.
+            TypeError: if the action is not an integer.
+            ValueError: if there is no such action.
+        """
+        observation, reward, terminated, truncated, info = super().step(action)
+        if self._weights is not None:
+            reward = 0.0
+            if terminated or truncated:
+                found = reward_components(self.state, self.item.witness)
+                reward, info["components"] = self._weights.of(found), asdict(found)
+        return observation, reward, terminated, truncated, info
 
     def _position(self, index: int) -> int:
         first, number = self.stream.start_level, self.stream.num_levels

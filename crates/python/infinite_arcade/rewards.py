@@ -71,7 +71,10 @@ class RewardWeights:
 
     def reward(self, state: State, witness: Episode) -> float:
         """Returns the weighted sum of the components of an episode."""
-        found = reward_components(state, witness)
+        return self.of(reward_components(state, witness))
+
+    def of(self, found: RewardComponents) -> float:
+        """Returns the weighted sum of components."""
         return (
             self.win * found.win
             + self.score * found.score

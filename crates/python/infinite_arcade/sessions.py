@@ -22,7 +22,8 @@ from typing import Any
 from . import _native
 from ._arguments import Seed, at_least, check_games, check_levels, did_you_mean, level_numbers, seed_text
 from ._native import ArcadeError
-from .games import Game, Level, corpus, load, seed_child, seed_from_text
+from .games import Episode, Game, Level, corpus, load, seed_child, seed_from_text
+from .rewards import RewardComponents, reward_components
 from .snapshots import open_snapshot
 from .streams import Stream
 
@@ -184,6 +185,10 @@ class Shelf:
         game = self.stream[index].alone()
         return game, game.levels[0]
 
+    def witness(self, level: Level) -> Episode | None:
+        """Returns the winning episode that came with a level of a stream, or None for other levels."""
+        return None if self.stream is None else self.stream[level.number - self.stream.start_level].witness
+
     def draw(self, seed: Seed) -> tuple[Game, Level]:
         """Returns the level that a seed draws, and its game."""
         return self[int(seed_child(seed_from_text(seed_text(seed)), "item", 0)[:15], 16) % len(self)]
@@ -323,6 +328,10 @@ class TextSession:
     def outcome(self) -> str:
         """The outcome, such as ``won``. It stays ``ongoing`` if the episode ends after ``max_steps`` actions."""
         return self._state.outcome
+
+    def components(self, witness: Episode) -> RewardComponents:
+        """Returns the components of the episode's reward, compared with a winning episode of the level."""
+        return reward_components(self._state, witness)
 
     def state_hash(self) -> str:
         """Returns the hash of the current state."""

@@ -24,6 +24,9 @@ class ArcadeObservation(Observation):
     level: int = Field(default=0, description="The number of the level")
     score: float = Field(default=0.0, description="The current score of the game")
     outcome: str = Field(default="ongoing", description="`ongoing`, `won`, `lost`, `ended` or `stopped`")
+    components: dict[str, float] | None = Field(
+        default=None, description="The components of the reward, from 0 to 1; only after the last action on a level of a stream"
+    )
     error: str | None = Field(default=None, description="The reason why the action was not played, or nothing")
 
 

@@ -35,12 +35,14 @@ def test_a_witness_wins(server: str) -> None:
         rewards = [env.step(ArcadeAction(action=action)).reward for action in item.witness.actions]
         state = env.state()
         assert rewards == [0.0] * (len(rewards) - 1) + [1.0]
+        assert result.observation.components is None
         assert (state.outcome, state.history) == ("won", list(item.witness.actions))
         again = TextSession(item.alone(), item.alone().levels[0], seed=7)
         again.play(item.witness.actions)
         assert (state.seed, state.state_hash) == ("7", again.state_hash())
         result = env.step(ArcadeAction(action="right"))
         assert result.done and result.reward == 0.0 and "reset to play again" in result.observation.error
+        assert result.observation.components["win"] == result.observation.components["efficiency"] == 1
 
 
 def test_two_sessions_are_separate_and_seeds_repeat(server: str) -> None:

@@ -89,3 +89,33 @@ def test_an_environment_plays_a_new_level_in_each_episode() -> None:
     with pytest.raises(ValueError, match="has the levels 10 to 11, not 12"):
         env.reset(options={"level": 12})
     check_env(env.unwrapped, skip_render_check=True)
+
+
+def test_weights_reward_the_end_of_an_episode() -> None:
+    weights = ia.RewardWeights()
+    env = gymnasium.make(
+        "InfiniteArcade/Stream-v0", game="hailglass", stream_seed="lessons", max_steps=200, reward=weights
+    )
+
+    def play(actions: list[str]) -> tuple[list[float], dict[str, Any]]:
+        plain: Any = env.unwrapped
+        witness = plain.stream[0].witness
+        _, info = env.reset(options={"level": 0, "seed": witness.seed})
+        rewards = []
+        for name in actions:
+            _, reward, terminated, truncated, info = env.step(plain.game.actions.index(name))
+            rewards.append(float(reward))
+            if terminated or truncated:
+                break
+        return rewards, info
+
+    env.reset(seed=1)
+    stream: ia.Stream = env.get_wrapper_attr("stream")
+    item = stream[0]
+    rewards, info = play(list(item.witness.actions))
+    assert info["outcome"] == "won"
+    assert info["components"]["win"] == info["components"]["efficiency"] == 1
+    assert set(rewards[:-1]) == {0.0}
+    assert rewards[-1] == pytest.approx(weights.reward(item.witness.replay(), item.witness))
+    idle, info = play(["nil"] * 200)
+    assert sum(idle) <= weights.progress and info["components"]["win"] == 0

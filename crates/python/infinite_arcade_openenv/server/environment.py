@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+from dataclasses import asdict
 from typing import Any
 from uuid import uuid4
 
@@ -163,6 +164,7 @@ class ArcadeEnvironment(Environment[ArcadeAction, ArcadeObservation, ArcadeState
 
     def _observation(self, *, reward: float, rules: str | None = None, error: str | None = None) -> ArcadeObservation:
         session = self._started()
+        witness = self._shelf.witness(session.level) if session.is_over else None
         return ArcadeObservation(
             text=session.observation,
             rules=rules,
@@ -171,6 +173,7 @@ class ArcadeEnvironment(Environment[ArcadeAction, ArcadeObservation, ArcadeState
             level=session.level.number,
             score=session.score,
             outcome=session.outcome,
+            components=asdict(session.components(witness)) if witness is not None else None,
             error=error,
             reward=reward,
             done=session.is_over,
