@@ -32,17 +32,19 @@ def test_a_witness_wins(server: str) -> None:
         result = env.reset(seed=7, index=0)
         assert "## Rules" in result.observation.rules and "## Board" in result.observation.text
         assert (result.reward, result.done) == (0.0, False)
-        rewards = [env.step(ArcadeAction(action=action)).reward for action in item.witness.actions]
+        steps = [env.step(ArcadeAction(action=action)) for action in item.witness.actions]
+        rewards = [step.reward for step in steps]
+        components = [step.observation.components for step in steps]
+        assert components[:-1] == [None] * (len(steps) - 1)
+        assert components[-1]["win"] == components[-1]["efficiency"] == 1
         state = env.state()
         assert rewards == [0.0] * (len(rewards) - 1) + [1.0]
-        assert result.observation.components is None
         assert (state.outcome, state.history) == ("won", list(item.witness.actions))
         again = TextSession(item.alone(), item.alone().levels[0], seed=7)
         again.play(item.witness.actions)
         assert (state.seed, state.state_hash) == ("7", again.state_hash())
         result = env.step(ArcadeAction(action="right"))
         assert result.done and result.reward == 0.0 and "reset to play again" in result.observation.error
-        assert result.observation.components["win"] == result.observation.components["efficiency"] == 1
 
 
 def test_two_sessions_are_separate_and_seeds_repeat(server: str) -> None:

@@ -147,7 +147,8 @@ fn designs_become_a_release() {
         told.split('`').find(|part| part.starts_with("digest = ")).expect("the line to write").to_owned();
     fs::write(&file, format!("{recipe}{line}\n")).unwrap();
     let minted = run(home.path(), &release, 0);
-    assert!(text(&minted.stdout).contains("Plum Walk"), "{}", text(&minted.stdout));
+    let said = text(&minted.stdout);
+    assert!(said.contains("Plum Walk") && said.contains("regenerate releases/ours --designs DIR"), "{said}");
     run(home.path(), &["verify", "releases/ours"], 0);
     let again = run(home.path(), &["regenerate", "releases/ours", "--designs", "designs"], 0);
     assert!(text(&again.stdout).starts_with("identical"), "{}", text(&again.stdout));

@@ -86,7 +86,9 @@ class ArcadeEnvironment(Environment[ArcadeAction, ArcadeObservation, ArcadeState
             session.act(action.action)
         except ValueError as error:
             return self._observation(error=str(error), reward=0.0)
-        return self._observation(reward=float(session.outcome == "won" and not was_over))
+        witness = self._shelf.witness(session.level) if session.is_over else None
+        components = None if witness is None else asdict(session.components(witness))
+        return self._observation(reward=float(session.outcome == "won" and not was_over), components=components)
 
     @property
     def state(self) -> ArcadeState:
@@ -162,9 +164,15 @@ class ArcadeEnvironment(Environment[ArcadeAction, ArcadeObservation, ArcadeState
             raise RuntimeError("no episode has been started; call reset first")
         return self._session
 
-    def _observation(self, *, reward: float, rules: str | None = None, error: str | None = None) -> ArcadeObservation:
+    def _observation(
+        self,
+        *,
+        reward: float,
+        rules: str | None = None,
+        components: dict[str, float] | None = None,
+        error: str | None = None,
+    ) -> ArcadeObservation:
         session = self._started()
-        witness = self._shelf.witness(session.level) if session.is_over else None
         return ArcadeObservation(
             text=session.observation,
             rules=rules,
@@ -173,7 +181,7 @@ class ArcadeEnvironment(Environment[ArcadeAction, ArcadeObservation, ArcadeState
             level=session.level.number,
             score=session.score,
             outcome=session.outcome,
-            components=asdict(session.components(witness)) if witness is not None else None,
+            components=components,
             error=error,
             reward=reward,
             done=session.is_over,

@@ -2,6 +2,7 @@
 
 use super::DesignsPart;
 use base::Digest;
+use base::MessagePath;
 use base::canonical::canonical_digest;
 use engine::Game;
 use serde::Deserialize;
@@ -56,7 +57,7 @@ pub struct Provenance {
 #[non_exhaustive]
 pub enum PoolError {
     /// A folder or file cannot be read.
-    #[error("{}: {source}", .path.display())]
+    #[error("{}: {source}", .path.in_message())]
     Io {
         /// The folder or file.
         path: PathBuf,
@@ -84,7 +85,7 @@ impl DesignPool {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 let help =
                     "there are no designs here; `arcade design --out DIR` writes designs to the folder DIR";
-                return Err(PoolError::Malformed(vec![format!("{}: {help}", games.display())]));
+                return Err(PoolError::Malformed(vec![format!("{}: {help}", games.in_message())]));
             }
             entries => entries.map_err(failed(&games))?,
         };
@@ -99,14 +100,14 @@ impl DesignPool {
         names.sort_unstable();
         let mut problems = Vec::new();
         if names.len() > MAX_DESIGNS {
-            problems.push(format!("{}: the limit is {MAX_DESIGNS} designs", games.display()));
+            problems.push(format!("{}: the limit is {MAX_DESIGNS} designs", games.in_message()));
         }
         let mut designs = Vec::new();
         for name in names.into_iter().take(MAX_DESIGNS) {
             designs.extend(Design::read(&games.join(&name), name, &mut problems));
         }
         if problems.is_empty() && designs.is_empty() {
-            problems.push(format!("{}: the folder contains no accepted design", games.display()));
+            problems.push(format!("{}: the folder contains no accepted design", games.in_message()));
         }
         if !problems.is_empty() {
             return Err(PoolError::Malformed(problems));
@@ -137,7 +138,7 @@ impl Design {
         let mut text = |file: &str| match read_text(&folder.join(file)) {
             Ok(text) => text,
             Err(problem) => {
-                problems.push(format!("{}: {problem}", folder.join(file).display()));
+                problems.push(format!("{}: {problem}", folder.join(file).in_message()));
                 None
             }
         };
@@ -147,7 +148,7 @@ impl Design {
         let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         if name.is_empty() || name.len() > 60 || !name.chars().all(is_plain) {
             let help = "a design's name has up to 60 letters, digits, `-` and `_`";
-            problems.push(format!("{}: {help}", folder.display()));
+            problems.push(format!("{}: {help}", folder.in_message()));
         }
         let Some(source) = source else {
             // Other files without rules belong to an interrupted run.
@@ -157,24 +158,25 @@ impl Design {
             Ok(game) => {
                 for (at, level) in levels.iter().enumerate() {
                     if let Err(found) = game.level(level) {
-                        problems.push(format!("{}: {found}", folder.join(format!("lvl{at}.txt")).display()));
+                        problems
+                            .push(format!("{}: {found}", folder.join(format!("lvl{at}.txt")).in_message()));
                     }
                 }
             }
-            Err(found) => problems.push(format!("{}: {found}", folder.join("game.vgdl").display())),
+            Err(found) => problems.push(format!("{}: {found}", folder.join("game.vgdl").in_message())),
         }
         if levels.is_empty() {
-            problems.push(format!("{}: missing", folder.join("lvl0.txt").display()));
+            problems.push(format!("{}: missing", folder.join("lvl0.txt").in_message()));
         }
         let file = folder.join("design.json");
         let provenance = match provenance.as_deref().map(serde_json::from_str) {
             Some(Ok(provenance)) => Some(provenance),
             Some(Err(error)) => {
-                problems.push(format!("{}: {error}", file.display()));
+                problems.push(format!("{}: {error}", file.in_message()));
                 None
             }
             None => {
-                problems.push(format!("{}: missing", file.display()));
+                problems.push(format!("{}: missing", file.in_message()));
                 None
             }
         };

@@ -238,7 +238,10 @@ fn mint(args: &Args, order: &Order, tools: Tools<'_>, console: &Console) -> Answ
                 console.say("keep the shard private: it contains winning episodes");
             }
             let secret = if order.secret.is_some() { " --secret FILE" } else { "" };
-            console.say(format_args!("once all shards are made: arcade merge SHARD... --out DIR{secret}"));
+            let designs = if args.designs.is_some() { " --designs DIR" } else { "" };
+            console.say(format_args!(
+                "once all shards are made: arcade merge SHARD... --out DIR{designs}{secret}"
+            ));
             Ok(true)
         }
     }

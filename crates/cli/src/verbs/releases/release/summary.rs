@@ -55,7 +55,8 @@ pub(super) fn summary(minted: &Minted, recipe: &Recipe, out: &Path, seconds: Opt
     let of_release = |verb: &str| shell::command([OsStr::new(verb), public.as_os_str()]);
     let _ = writeln!(text, "check it:       {}", of_release("verify"));
     if manifest.commitment.is_none() {
-        let _ = writeln!(text, "mint it again:  {}", of_release("regenerate"));
+        let pool = if recipe.designs.is_some() { " --designs DIR" } else { "" };
+        let _ = writeln!(text, "mint it again:  {}{pool}", of_release("regenerate"));
     }
     let entered = [OsStr::new("--release"), public.as_os_str()];
     let beacon = ["--beacon", "FILE"].map(OsStr::new);
