@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 /// The cell size in pixels on a board of typical size.
 const USUAL_BLOCK: i32 = 40;
 
-/// How a type's sprites move on their own.
+/// The movement of a type's sprites on their own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// The sprites do not move.
