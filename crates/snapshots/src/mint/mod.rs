@@ -233,6 +233,21 @@ pub(crate) mod tests {
         lay_out(&plan, None, &store, Digest::of(b""), &mut |_, _| Ok(()))
     }
 
+    /// More candidates of one kind shift the scenes of the kinds after it, so their finished jobs cannot be used again.
+    #[test]
+    fn finished_puzzles_are_kept_only_with_their_scenes() {
+        let digest = |puzzles: &str, strays: &str| {
+            let text = format!(
+                "name = 'one'\ndescription = 'one'\nseed = 'scenes'\n[puzzles]\ngames = 2\ncandidates = {puzzles}\n\
+                 [strays]\ngames = 2\ncandidates = {strays}\n[tiers]\n2 = 1.0\n"
+            );
+            let recipe = Recipe::from_toml(&text).unwrap();
+            Plan::new(&recipe, None, &corpus(&[])).unwrap().digest().unwrap()
+        };
+        assert_eq!(digest("1.0", "1.0"), digest("1.0", "2.0"));
+        assert_ne!(digest("1.0", "1.0"), digest("2.0", "1.0"));
+    }
+
     /// Puzzles have the requested tiers, their cards state the tiers, and their witnesses' seeds can be
     /// traced.
     #[test]

@@ -198,6 +198,14 @@ impl<'a> Plan<'a> {
         if self.recipe.generated.games + self.invented_games() > 0 && !self.before.is_empty() {
             decisive["known"] = serde_json::json!(self.recipe.known);
         }
+        // The scene of a puzzle depends on its position among the puzzles of all kinds.
+        let first = |kind: PuzzleKind| {
+            self.puzzles().position(|job| matches!(job, Job::Puzzle(other, _) if other == kind))
+        };
+        let firsts: Vec<usize> = PuzzleKind::ALL.into_iter().filter_map(first).collect();
+        if firsts.len() > 1 {
+            decisive["first_puzzles"] = serde_json::json!(firsts);
+        }
         let keys = decisive.as_object_mut().expect("the value was made as an object");
         SECTIONS.iter().for_each(|section| section.decide(self.recipe, keys));
         Ok(canonical_digest(&decisive)?)
