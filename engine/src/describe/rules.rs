@@ -140,7 +140,7 @@ fn points(change: i32) -> String {
     phrase.with(&[("points", &number)])
 }
 
-/// Returns one sentence for each rule that a clock triggers.
+/// Returns the sentences about rules that a clock triggers. Rules that are never due have none.
 pub(super) fn timed_effects(analysis: &Analysis) -> Vec<String> {
     let rules = &analysis.game().0;
     let line = |timed: &Timed| {

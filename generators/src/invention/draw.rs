@@ -311,7 +311,8 @@ fn choose(
 
 /// Partitions the ports (the mechanics' open roles) at random. One sprite type fills all ports in a class. Merges
 /// pairs of classes until shared types connect all mechanics, a rule moves every type that should move, and every
-/// type is needed. May then merge one more pair. Returns `None` if no remaining pair of classes can be merged.
+/// type is needed. May then merge one more pair. Returns `None` if no remaining pair repairs a type
+/// or connects a mechanic.
 fn partition(mechanics: &[&'static Mechanic], sampler: &mut Sampler) -> Option<Vec<u8>> {
     completed(mechanics, apart(mechanics), sampler)
 }

@@ -280,7 +280,8 @@ impl Board<'_> {
 
     /// Returns, for each cell, the minimum number of pushes after which a sprite of type `stype` may be gone or
     /// have a type outside `counted`. The result is a fixed point. It is computed backwards from the cells in which
-    /// the sprite can be removed or transformed.
+    /// the sprite can be removed, leave the board, or become a type outside `counted`. Types that are not
+    /// `tame` are not followed.
     fn pushes(&self, stype: SpriteType, counted: &[SpriteType], tame: &[bool]) -> Vec<u16> {
         let cells = self.columns * self.rows;
         // The types that the sprite may have while it is still counted. Indices below refer to this list.

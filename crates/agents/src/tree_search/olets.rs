@@ -42,7 +42,8 @@ base::with_defaults! {
 pub struct Olets {
     config: OletsConfig,
     streams: Streams,
-    /// The nodes of the tree, root first. Between decisions, the tree holds only the retained nodes.
+    /// The nodes of the tree, root first. Between decisions, the tree holds only the retained nodes,
+    /// which the next decision refreshes.
     tree: Vec<Node>,
     /// The action that belongs to each branch of the tree.
     actions: Vec<Action>,
